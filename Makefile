@@ -1,0 +1,48 @@
+# Two commands do everything on a fresh machine: `make demo` and `make test`.
+# The environment is .venv in this folder, built from pyproject.toml and constraints.txt.
+
+PYTHON ?= $(shell for name in python3.11 python3.10 python3; do if $$name -c "" 2>/dev/null; then echo $$name; break; fi; done)
+BIN := .venv/bin
+export NUMBA_CACHE_DIR := $(CURDIR)/.venv/numba-cache
+
+.PHONY: demo test test-slow check format bench clean
+
+demo: .venv/installed
+	$(BIN)/adhoc run -m policy=none,heuristic,irot join_step=0,50 benchmark=demo out=demo
+	$(BIN)/adhoc report demo --markdown demo/table.md
+
+test: .venv/installed-dev
+	$(BIN)/pytest
+
+test-slow: .venv/installed-dev
+	$(BIN)/pytest -m slow
+
+check: .venv/installed-dev
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/codespell
+
+format: .venv/installed-dev
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+# A larger house than the shipped ones: make bench HOUSE=house.json.gz
+bench: .venv/installed-dev
+	$(BIN)/python benchmarks/speed.py $(HOUSE)
+	$(BIN)/python benchmarks/episode.py $(HOUSE)
+
+.venv/bin/pip:
+	$(PYTHON) -m venv .venv
+
+.venv/installed: pyproject.toml constraints.txt | .venv/bin/pip
+	$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable .
+	touch $@
+
+.venv/installed-dev: pyproject.toml constraints.txt | .venv/bin/pip
+	$(BIN)/pip install --quiet --disable-pip-version-check --constraint constraints.txt --editable ".[dev]"
+	touch $@ .venv/installed
+
+clean:
+	rm -rf .venv demo out build dist

@@ -1,0 +1,1 @@
+"""Values, errors, geometry and random streams: what every other package speaks in."""
