@@ -1,0 +1,1 @@
+"""Language models: the contract, a real one over HTTP, the offline reasoner, and wrappers."""

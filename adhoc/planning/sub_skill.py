@@ -1,0 +1,40 @@
+"""The dynamic sub-skill planner (paper, section Dynamic Sub-skill Planner)."""
+
+from __future__ import annotations
+
+from adhoc.core.calls import Call
+from adhoc.core.plans import Assessment, Context
+from adhoc.llm.model import LanguageModel
+from adhoc.planning.inquiry import Inquiry
+from adhoc.planning.interfaces import SubSkillPlanner
+from adhoc.prompting.library import PromptLibrary
+from adhoc.prompting.parse import read_sub_skill
+from adhoc.prompting.stage import StageInput
+
+
+class LLMSubSkillPlanner(SubSkillPlanner):
+    """Lets the language model choose the next sub-skill.
+
+    Args:
+        model: The language model.
+        template: `sub_skill`; with `direct_sub_skill` the current sub-task is not in the prompt, which is the
+            paper's 'w/o STP.' together with `planning.direct.DirectPlanner`.
+        prompts: Where templates come from; the shipped ones by default.
+        repairs: See `Inquiry`.
+        max_tokens: The longest reply.
+    """
+
+    def __init__(
+        self,
+        model: LanguageModel,
+        template: str = "sub_skill",
+        prompts: PromptLibrary | None = None,
+        repairs: int = 1,
+        max_tokens: int = 512,
+    ) -> None:
+        self._inquiry = Inquiry(model, template, prompts, repairs, max_tokens)
+
+    def next_skill(self, context: Context, sub_task: Call, last: Assessment | None) -> Call:
+        """See `SubSkillPlanner`."""
+        stage = StageInput(sub_task=sub_task, last=last)
+        return self._inquiry.ask(context, stage, lambda text: read_sub_skill(text, context))

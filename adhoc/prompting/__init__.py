@@ -1,0 +1,1 @@
+"""Prompts: templates filled from a planning context, and replies read back into values."""

@@ -1,0 +1,1 @@
+"""Tasks: goals with their vocabularies of sub-tasks and sub-skills, and common sense."""
