@@ -1,0 +1,1 @@
+"""Policies: the minds of robots, and what they share (memory, communication, assessment)."""

@@ -1,0 +1,48 @@
+"""The contract of a policy: the mind of one robot."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from adhoc.core.messages import Message
+from adhoc.core.values import Action, Capability, Observation
+from adhoc.tasks.task import Task
+
+Ask = Callable[[Message], Sequence[Message]]
+"""Broadcasts a message and returns the teammates' answers within the step."""
+
+
+@dataclass(frozen=True)
+class Turn:
+    """What a robot does in one step: one action, and messages that arrive at the next step."""
+
+    action: Action
+    outbox: tuple[Message, ...] = ()
+    trace: Mapping[str, Any] = field(default_factory=dict)
+    """For transcripts and inspectors only: what was decided and why. JSON values. Never an input."""
+
+
+class Policy(ABC):
+    """Decides for one robot from its own observations and the messages it receives, and nothing else."""
+
+    @abstractmethod
+    def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
+        """Begin an episode as the robot `me`. All its randomness comes from
+        `core.streams.stream(seed, "agent", me)`.
+
+        `ask` may be called during `act` only.
+        """
+
+    @abstractmethod
+    def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
+        """One step: what to do and what to say. `Stop` is for good: once chosen, it is all that follows.
+
+        `inbox` holds the messages sent to this robot or to everybody in the previous step, never its own.
+        """
+
+    def respond(self, message: Message) -> Message | None:
+        """Answer a question within the step (see `MessageKind.INTENTION`, `JOIN`), or stay silent."""
+        return None

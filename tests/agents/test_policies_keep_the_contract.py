@@ -1,0 +1,40 @@
+"""Every policy keeps the contract of policies."""
+
+from __future__ import annotations
+
+from adhoc import (
+    HeuristicPolicy,
+    LLMAgent,
+    LLMEvaluator,
+    LLMGenerator,
+    LLMReflector,
+    LLMSubSkillPlanner,
+    OfflineReasoner,
+    RandomPolicy,
+    StagedPlanner,
+    TidyingUp,
+    placement_table,
+)
+from adhoc.testing.policy_contract import PolicyContract
+
+
+def irot() -> LLMAgent:
+    model = OfflineReasoner(placement_table())
+    planner = StagedPlanner(LLMGenerator(model), LLMEvaluator(model), LLMReflector(model), TidyingUp().legal)
+    return LLMAgent(planner, LLMSubSkillPlanner(model))
+
+
+class TestRandomPolicy(PolicyContract):
+    make = RandomPolicy
+
+
+class TestHeuristicMember(PolicyContract):
+    make = HeuristicPolicy
+
+
+class TestHeuristicNewcomer(PolicyContract):
+    make = staticmethod(lambda: HeuristicPolicy(member=False))
+
+
+class TestLLMAgent(PolicyContract):
+    make = staticmethod(irot)
