@@ -1,0 +1,1 @@
+"""The command line: `adhoc run`, `adhoc report` and `adhoc house`."""

@@ -1,0 +1,29 @@
+"""What a run leaves beside its records: pictures and transcripts."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from adhoc.evaluation.contender import EpisodeKey
+from adhoc.evaluation.episode import EpisodeResult
+from adhoc.evaluation.records import Record
+from adhoc.evaluation.run import Artifact
+from adhoc.evaluation.transcript import write_transcript
+
+
+def artifacts_for(folder: Path, pictures: bool, transcript: bool) -> list[Artifact]:
+    """What to do with each fresh episode: `pictures/EPISODE.png`, `transcripts/EPISODE.md`."""
+
+    def draw(key: EpisodeKey, result: EpisodeResult, record: Record) -> None:
+        from adhoc.evaluation.picture import draw_episode
+
+        draw_episode(result, record, folder / "pictures" / f"{key.id}.png")
+
+    def write(key: EpisodeKey, result: EpisodeResult, record: Record) -> None:
+        page = write_transcript(result, record)
+        if page is not None:
+            path = folder / "transcripts" / f"{key.id}.md"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(page, encoding="utf-8")
+
+    return [*([draw] if pictures else []), *([write] if transcript else [])]

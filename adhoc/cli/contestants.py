@@ -1,0 +1,156 @@
+"""From the configuration of a run to the values and objects that `evaluation` works with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+from omegaconf import DictConfig, OmegaConf
+from omegaconf.errors import MissingMandatoryValue
+
+from adhoc.agents.policy import Policy
+from adhoc.cli.build import Offer, build, is_component
+from adhoc.core.errors import ConfigurationError
+from adhoc.evaluation.benchmark import Benchmark
+from adhoc.evaluation.contender import NO_AD_HOC, Conditions, Contender
+from adhoc.evaluation.exchanges import TranscribingModel
+from adhoc.evaluation.metrics import FailedShare
+from adhoc.llm.counting import CountingModel
+from adhoc.llm.model import LanguageModel
+from adhoc.llm.retrying import RetryingModel
+from adhoc.planning.interfaces import Evaluator, Planner, Reflector, SubSkillPlanner, SubTaskGenerator
+from adhoc.tasks.placement import placement_table
+from adhoc.tasks.task import Task
+from adhoc.worlds.world import World
+
+AGENT = "agent"
+"""The key of a policy's configuration that describes the policy itself; its other components are stages."""
+STAGES: Mapping[str, type] = {
+    "generator": SubTaskGenerator,
+    "evaluator": Evaluator,
+    "reflector": Reflector,
+    "planner": Planner,
+    "sub_skill_planner": SubSkillPlanner,
+}
+"""What the stages of the paper must be; stages of other names may be anything."""
+LLM_OFFERS: Mapping[str, Offer] = {"places": placement_table}
+"""What language models that are none may ask for: general knowledge of where things belong."""
+
+
+class Components:
+    """Everything that one run is made of, built from its configuration.
+
+    The language model is built once, and only if a policy asks for it. Raises ConfigurationError, or
+    whatever the components raise.
+    """
+
+    def __init__(self, config: DictConfig) -> None:
+        self._config = config
+        self._asked_for_model = False
+
+    @cached_property
+    def world(self) -> World:
+        """The world of all episodes."""
+        world: World = self._component("world", World)
+        return world
+
+    @cached_property
+    def benchmark(self) -> Benchmark:
+        """Where the scenarios come from."""
+        benchmark: Benchmark = self._component("benchmark", Benchmark)
+        return benchmark
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """Task, team and limits."""
+        settings = {"task": self._plain("task"), "world": self._plain("world")}
+        return Conditions(
+            self._task,
+            self._contender("team"),
+            self._config.max_steps,
+            failed_share=self._failed_share,
+            settings=settings,
+        )
+
+    @cached_property
+    def newcomer(self) -> Contender | None:
+        """The ad hoc robot; None for `policy=none`."""
+        return None if self._plain("policy").get("name") == NO_AD_HOC else self._contender("policy")
+
+    def _contender(self, group: str) -> Contender:
+        config = self._plain(group)
+        for field in ("name", "label", AGENT):
+            if field not in config:
+                raise ConfigurationError(f"{group}: field {field!r} is missing in the configuration file")
+        self._asked_for_model = False
+        self._make_policy(group, config)
+        settings, model = config, None
+        if self._asked_for_model:
+            settings, model = {**config, "llm": self._plain("llm")}, self._model
+        return Contender(
+            config["name"], config["label"], lambda: self._make_policy(group, config), settings, model
+        )
+
+    def _make_policy(self, group: str, config: Mapping[str, Any]) -> Policy:
+        """A fresh policy with fresh stages; they share the model alone."""
+        offers: dict[str, Offer] = {
+            "model": self._offer_model,
+            "exchanges": lambda: self._transcriber.take,
+            "legal": lambda: self._task.legal,
+        }
+        for name, stage in config.items():
+            if name != AGENT and is_component(stage):
+                offers[name] = _stage_offer(stage, f"{group}.{name}", offers, STAGES.get(name))
+        policy: Policy = build(config[AGENT], f"{group}.{AGENT}", offers, Policy)
+        return policy
+
+    @property
+    def _failed_share(self) -> FailedShare:
+        try:
+            return FailedShare(self._config.failed_share)
+        except ValueError as error:
+            known = ", ".join(share.value for share in FailedShare)
+            raise ConfigurationError(
+                f"failed_share={self._config.failed_share}: must be one of {known}"
+            ) from error
+
+    @cached_property
+    def _task(self) -> Task:
+        task: Task = self._component("task", Task)
+        return task
+
+    def _offer_model(self) -> LanguageModel:
+        self._asked_for_model = True
+        return self._model
+
+    @cached_property
+    def _transcriber(self) -> TranscribingModel:
+        config = self._plain("llm")
+        settings = {name: value for name, value in config.items() if name != "name"}
+        return TranscribingModel(RetryingModel(build(settings, "llm", LLM_OFFERS, LanguageModel)))
+
+    @cached_property
+    def _model(self) -> CountingModel:
+        return CountingModel(self._transcriber)
+
+    def _component(self, group: str, kind: type) -> Any:
+        config = self._plain(group)
+        settings = {name: value for name, value in config.items() if name != "name"}
+        return build(settings, group, kind=kind)
+
+    def _plain(self, group: str) -> dict[str, Any]:
+        """One group as plain values."""
+        try:
+            plain = OmegaConf.to_container(self._config[group], resolve=True, throw_on_missing=True)
+        except MissingMandatoryValue as error:
+            raise ConfigurationError(f"{error.full_key}=...: must be given") from error
+        if not isinstance(plain, dict):
+            raise ConfigurationError(f"{group}={plain!r}: is no configuration group")
+        return {str(name): value for name, value in plain.items()}
+
+
+def _stage_offer(
+    stage: Mapping[str, Any], where: str, offers: Mapping[str, Offer], kind: type | None
+) -> Offer:
+    return lambda: build(stage, where, offers, kind)

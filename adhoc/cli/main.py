@@ -1,0 +1,78 @@
+"""The `adhoc` command: finds the sub-command, and turns the library's errors into one clear line."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import warnings
+from collections.abc import Callable, Sequence
+from importlib import import_module
+from typing import TextIO
+
+from adhoc import __version__
+from adhoc.core.errors import AdhocError
+
+COMMANDS = {
+    "run": (
+        "adhoc.cli.run",
+        "run episodes: a team alone and with an ad hoc robot (Hydra overrides, -m sweeps)",
+    ),
+    "report": ("adhoc.cli.report", "print the paper's table from the records of runs"),
+    "house": ("adhoc.cli.house", "describe a ProcTHOR house file, and draw it"),
+}
+"""Modules are imported only when their command is used; each has `main(arguments) -> exit code`."""
+
+USAGE_ERROR = 2
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run `adhoc` with these arguments (of the process by default); returns the exit code.
+
+    0 is success, 2 an error of the user's input (one line on stderr), 130 an interruption.
+    """
+    command, rest = _parse(sys.argv[1:] if arguments is None else list(arguments))
+    run: Callable[[Sequence[str]], int] = import_module(COMMANDS[command][0]).main
+    with warnings.catch_warnings():
+        warnings.showwarning = _show_warning
+        try:
+            return run(rest)
+        except AdhocError as error:
+            sys.stderr.write(f"adhoc {command}: error: {error}\n")
+            return USAGE_ERROR
+        except OSError as error:
+            if error.filename is None:
+                raise
+            sys.stderr.write(f"adhoc {command}: error: {error.filename}: {error.strerror}\n")
+            return USAGE_ERROR
+        except KeyboardInterrupt:
+            sys.stderr.write(f"adhoc {command}: interrupted; the same command goes on where it stopped\n")
+            return 130
+
+
+def _parse(arguments: Sequence[str]) -> tuple[str, list[str]]:
+    parser = argparse.ArgumentParser(
+        prog="adhoc",
+        description="Heterogeneous ad hoc teamwork: a robot that nobody briefed joins a team and helps.",
+        epilog="`adhoc COMMAND --help` says more.",
+    )
+    parser.add_argument("--version", action="version", version=f"adhoc {__version__}")
+    commands = parser.add_subparsers(dest="command", metavar="COMMAND", required=True)
+    for name, (_, description) in COMMANDS.items():
+        commands.add_parser(name, help=description, add_help=False)
+    chosen, rest = parser.parse_known_args(arguments[:1])
+    return chosen.command, [*rest, *arguments[1:]]
+
+
+def _show_warning(
+    message: Warning | str,
+    category: type[Warning],
+    filename: str,
+    lineno: int,
+    file: TextIO | None = None,
+    line: str | None = None,
+) -> None:
+    sys.stderr.write(f"adhoc: warning: {message}\n")
+
+
+if __name__ == "__main__":
+    sys.exit(main())

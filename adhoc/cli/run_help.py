@@ -1,0 +1,57 @@
+"""The text of `adhoc run --help`: usage, and every choice of every group."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from adhoc.core.resources import data_dir
+
+GROUPS = ("policy", "team", "task", "world", "benchmark", "llm")
+
+USAGE = """\
+usage: adhoc run [-m] [KEY=VALUE ...]
+
+Runs the team alone and with the ad hoc robot in every scenario of a benchmark, and records each episode
+once. The same command again goes on where it stopped.
+
+  adhoc run policy=irot join_step=50 out=results
+  adhoc run -m policy=none,heuristic,irot join_step=0,50,100 out=results
+  adhoc report results
+
+values:
+  join_step=0      the step at which the ad hoc robot joins
+  out=out          the run folder
+  seed=0           other seeds give other scenarios of the same make
+  limit=N          only the first N scenarios
+  max_steps=500    the step limit of an episode
+  failed_share=from_joining  what a failure counts for the newcomer in #AS: from_joining, or full
+  pictures=true    draw every episode from above
+  transcript=true  write one decision of every episode as a page to read
+
+choices:
+{choices}
+stages of a policy, e.g. policy/evaluator=keep_order:
+{stages}
+The settings in the files are keys: world.image_size=64, policy.generator.n=5; any other parameter of a
+component's class takes a plus: +world.robot_radius=0.3. Hydra's own options (--cfg job shows every key,
+--config-dir DIR is for files of your own) work as usual.
+"""
+
+
+def help_text() -> str:
+    """The help, with the configuration files that are in force."""
+    root = data_dir("configs")
+    stages = sorted(folder for folder in (root / "policy").iterdir() if folder.is_dir())
+    return USAGE.format(
+        choices="".join(_line(group, root / group) for group in GROUPS),
+        stages="".join(_line(f"policy/{folder.name}", folder) for folder in stages),
+    )
+
+
+def options(folder: Path) -> list[str]:
+    """The names of the configuration files in a group's folder."""
+    return sorted(path.stem for path in folder.glob("*.yaml"))
+
+
+def _line(group: str, folder: Path) -> str:
+    return f"  {group + '=':<26} {', '.join(options(folder))}\n"

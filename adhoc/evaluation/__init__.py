@@ -1,0 +1,1 @@
+"""Scenarios, episodes, the referee, metrics, records, reports and pictures (paper, section Experiments)."""

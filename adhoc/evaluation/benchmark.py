@@ -1,0 +1,119 @@
+"""Benchmarks: which houses, and which scenarios are drawn in them."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from adhoc.core.errors import ConfigurationError
+from adhoc.core.streams import derive_seed
+from adhoc.evaluation.sampling import Ranges, sample_scenario
+from adhoc.evaluation.scenario import Scenario
+from adhoc.houses.house import House
+from adhoc.houses.procthor import read_house
+from adhoc.houses.samples import sample_house, sample_names
+from adhoc.worlds.world import World
+
+
+class Benchmark(ABC):
+    """A list of scenarios."""
+
+    @abstractmethod
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
+        """The first `limit` scenarios (all if None); equal arguments give equal scenarios.
+
+        `world` is needed to try placements, and is reset. Another `seed` gives other scenarios of the same
+        make, none of which is a scenario of any other seed. Raises HouseError, WorldError or
+        ConfigurationError if a scenario cannot be made.
+        """
+
+
+@dataclass(frozen=True)
+class Draw:
+    """One scenario to be drawn: a shipped sample house, and what is asked of the draw."""
+
+    house: str
+    seed: int = 0
+    misplaced: int | None = None
+    teammates: int | None = None
+
+
+class SampleBenchmark(Benchmark):
+    """Scenarios in the houses that ship with the library.
+
+    Args:
+        draws: One mapping for each scenario, with the fields of `Draw`. Raises ConfigurationError for an
+            unknown field or house.
+    """
+
+    def __init__(self, draws: Sequence[Draw | dict[str, object]]) -> None:
+        self._draws = [draw if isinstance(draw, Draw) else _to_draw(draw) for draw in draws]
+
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
+        """See `Benchmark`."""
+        return [_sample(world, sample_house(draw.house), draw, seed) for draw in self._draws[:limit]]
+
+
+class HouseBenchmark(Benchmark):
+    """Scenarios in one house of a ProcTHOR file.
+
+    Args:
+        path: A `.json`, `.json.gz` or `.jsonl.gz` file.
+        index: Which house of the file.
+        count: How many scenarios.
+        misplaced: Misplaced objects of each; 1 to 5 are drawn if None.
+        teammates: Robots of each team; 3 to 5 are drawn if None.
+    """
+
+    def __init__(
+        self,
+        path: str | Path,
+        index: int = 0,
+        count: int = 5,
+        misplaced: int | None = None,
+        teammates: int | None = None,
+    ) -> None:
+        if count < 1:
+            raise ConfigurationError(f"benchmark.count={count}: must be at least 1")
+        self._path, self._index, self._count = Path(path), index, count
+        self._misplaced, self._teammates = misplaced, teammates
+
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
+        """See `Benchmark`. Raises HouseError if the file cannot be read."""
+        house = read_house(self._path, self._index)
+        count = self._count if limit is None else min(limit, self._count)
+        draws = [Draw(house.id, number, self._misplaced, self._teammates) for number in range(count)]
+        return [_sample(world, house, draw, seed) for draw in draws]
+
+
+def _sample(world: World, house: House, draw: Draw, run_seed: int) -> Scenario:
+    """The scenario of a draw under a run's seed. Under 0 it is that of the draw's own seed; its id names
+    both seeds else, as in `corridor-s0-r7`."""
+    seed, name = draw.seed, f"{draw.house}-s{draw.seed}"
+    if run_seed:
+        seed, name = derive_seed(run_seed, "draw", draw.seed), f"{name}-r{run_seed}"
+    return sample_scenario(world, house, seed, draw.misplaced, draw.teammates, Ranges(), name)
+
+
+def _to_draw(fields: dict[str, object]) -> Draw:
+    try:
+        draw = Draw(**fields)  # type: ignore[arg-type]
+    except TypeError as error:
+        known = ", ".join(Draw.__dataclass_fields__)
+        raise ConfigurationError(f"benchmark.draws: {fields!r} does not fit the fields {known}") from error
+    if draw.house not in sample_names():
+        known = ", ".join(sample_names())
+        raise ConfigurationError(f"benchmark.draws: no sample house {draw.house!r}; there are {known}")
+    for name in ("seed", "misplaced", "teammates"):
+        value = getattr(draw, name)
+        if not (_is_whole(value) or (value is None and name != "seed")):
+            raise ConfigurationError(
+                f"benchmark.draws: {name}={value!r} of {fields!r} must be a whole number"
+            )
+    return draw
+
+
+def _is_whole(value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)

@@ -1,0 +1,116 @@
+"""Who takes part in a comparison, and how their episodes are told apart in a run folder."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from adhoc.agents.policy import Policy
+from adhoc.evaluation.metrics import FailedShare
+from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
+from adhoc.evaluation.scenario import Scenario
+from adhoc.llm.counting import CountingModel
+from adhoc.tasks.task import Task
+
+NO_AD_HOC = "none"
+"""The policy name of the team alone."""
+
+
+@dataclass(frozen=True)
+class Contender:
+    """A team's policy or an ad hoc policy: how to make one for a robot, and what it is called.
+
+    `settings` are JSON values; whatever changes behaviour belongs in there, since they decide whether an
+    episode was run before. `model` is the language model that the policies use, None if they use none.
+    """
+
+    name: str
+    label: str
+    """As tables and pictures show it."""
+    make: Callable[[], Policy]
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    model: CountingModel | None = None
+
+    @property
+    def model_name(self) -> str | None:
+        """The model that records and tables name."""
+        return None if self.model is None else self.model.name
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What all compared episodes have in common."""
+
+    task: Task
+    team: Contender
+    max_steps: int = 500
+    referee: RefereeMaker = PlacementReferee
+    failed_share: FailedShare = FailedShare.FROM_JOINING
+    """What a failure counts for the newcomer's action steps."""
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    """Of the task and the world, as JSON values."""
+
+
+@dataclass(frozen=True)
+class EpisodeKey:
+    """Which episode: `newcomer` None is the team alone, whatever the joining step."""
+
+    scenario: Scenario
+    conditions: Conditions
+    newcomer: Contender | None = None
+    join_step: int | None = None
+
+    @property
+    def id(self) -> str:
+        """Unique in a run folder, fit for a file name."""
+        team = self.conditions.team
+        parts = [self.scenario.id, _with_model(team)]
+        parts += ["alone"] if self.newcomer is None else [_with_model(self.newcomer), f"t{self.join_step}"]
+        return "--".join(_file_name(part) for part in parts)
+
+    @property
+    def settings(self) -> Mapping[str, Any]:
+        """Everything but the scenario and the joining step that decides what is recorded."""
+        shared = {
+            "max_steps": self.conditions.max_steps,
+            "failed_share": self.conditions.failed_share.value,
+            "team": self.conditions.team.settings,
+            **self.conditions.settings,
+        }
+        return shared if self.newcomer is None else {**shared, "policy": self.newcomer.settings}
+
+    @property
+    def config_hash(self) -> str:
+        """A hash of `settings`."""
+        text = json.dumps(self.settings, sort_keys=True, separators=(",", ":"))
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
+
+    @property
+    def policy(self) -> str:
+        """The name of the ad hoc policy, `none` for the team alone."""
+        return NO_AD_HOC if self.newcomer is None else self.newcomer.name
+
+    @property
+    def model(self) -> str | None:
+        """The newcomer's model, else the team's."""
+        own = None if self.newcomer is None else self.newcomer.model_name
+        return own or self.conditions.team.model_name
+
+    @property
+    def group(self) -> tuple[str, str, str | None]:
+        """Episodes that only differ in scenario and joining step: they must share a `config_hash`."""
+        return (self.conditions.team.name, self.policy, self.model)
+
+
+def _with_model(contender: Contender) -> str:
+    """The name, with that of the model where there is one (but for remarks in brackets)."""
+    model = contender.model_name
+    return contender.name if model is None else f"{contender.name}-{re.sub(r' *[(].*?[)]', '', model)}"
+
+
+def _file_name(text: str) -> str:
+    return re.sub(r"[^A-Za-z0-9._]+", "-", text).strip("-")

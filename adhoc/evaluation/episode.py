@@ -1,0 +1,254 @@
+"""One episode: the team alone, or the team and a newcomer that joins at some step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+
+from adhoc.agents.policy import Policy
+from adhoc.core.errors import ConfigurationError
+from adhoc.core.values import Action, Observation, Pose
+from adhoc.evaluation.channel import Channel
+from adhoc.evaluation.history import History, check_shared_past
+from adhoc.evaluation.joining import joining_pose
+from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
+from adhoc.evaluation.scenario import Member, Scenario, prepare
+from adhoc.evaluation.trace import Trace
+from adhoc.tasks.task import Task
+from adhoc.worlds.world import AgentTruth, World
+
+
+class Ending(str, Enum):
+    """Why an episode ended."""
+
+    REPLACED = "all misplaced objects re-placed"
+    STOPPED = "all robots stopped or out of battery"
+    MAX_STEPS = "step limit reached"
+
+
+@dataclass(frozen=True)
+class EpisodeResult:
+    """What became of one episode, before any score is made of it."""
+
+    scenario: Scenario
+    max_steps: int
+    ending: Ending
+    steps: int
+    """Steps that were run."""
+    watched: tuple[str, ...]
+    """Ids of the objects that the episode is about: the misplaced ones."""
+    replaced: tuple[str, ...]
+    """Ids of the misplaced objects that ended in a right place."""
+    join_step: int | None
+    """The step at which the newcomer was to join; None for the team alone."""
+    joined: bool
+    """Whether it did: an episode that ends before `join_step` never sees it."""
+    joined_at: Pose | None
+    """Where it entered."""
+    moved: bool
+    """Whether that is not the planned pose, because it was occupied."""
+    agent_steps: Mapping[str, int]
+    """Battery steps used by every robot that was in the episode."""
+    messages: int
+    undeliverable: int
+    history: tuple[str, ...]
+    """One hash a step, see `evaluation.history`."""
+    trace: Trace
+
+    @property
+    def success(self) -> bool:
+        return self.ending is Ending.REPLACED
+
+    @property
+    def history_hash(self) -> str:
+        """The hash of everything before the newcomer joined, or of the whole episode if it did not."""
+        joined_after = self.join_step if self.joined and self.join_step is not None else -1
+        return self.history[joined_after]
+
+
+def run_episode(
+    world: World,
+    scenario: Scenario,
+    task: Task,
+    team: Sequence[Policy],
+    newcomer: Policy | None = None,
+    join_step: int = 0,
+    max_steps: int = 500,
+    referee: RefereeMaker = PlacementReferee,
+    alone: Sequence[str] | None = None,
+) -> EpisodeResult:
+    """Run one episode from set-up to its end; deterministic if the policies are.
+
+    The teammates act in the order of `scenario.team`, the newcomer after them. It enters before the
+    robots look at step `join_step`. The episode ends when the referee sees every misplaced object in a
+    right place, when every robot present has stopped or is out of battery, or after `max_steps` steps.
+
+    Args:
+        world: Any world; it is reset.
+        scenario: What is set up.
+        task: What the policies are told to do.
+        team: One policy for each teammate, in order.
+        newcomer: The policy of the ad hoc robot; None runs the team alone.
+        join_step: When it joins, at least 0 and below `max_steps`.
+        max_steps: The step limit (500 in the paper).
+        referee: Watches the ground truth and says when the task is done; another task brings its own.
+        alone: The `history` of the team alone in the same scenario. If given, the past up to the joining
+            step is checked against it.
+
+    Raises:
+        ConfigurationError: The number of policies or the joining step does not fit.
+        EpisodeError: The past differs from `alone`, or a policy broke the rules of the channel.
+        HouseError, WorldError: The scenario cannot be set up.
+    """
+    if len(team) != len(scenario.team):
+        raise ConfigurationError(
+            f"scenario {scenario.id!r} has {len(scenario.team)} teammates, not {len(team)}"
+        )
+    if newcomer is not None and not 0 <= join_step < max_steps:
+        raise ConfigurationError(f"join_step={join_step}: must be at least 0 and below max_steps={max_steps}")
+    episode = _Episode(world, scenario, task, referee, max_steps)
+    episode.set_up(team)
+    ending = episode.ending()
+    while ending is None:
+        if newcomer is not None and episode.step == join_step:
+            if alone is not None:
+                check_shared_past(episode.history.links, alone, f"scenario {scenario.id!r}")
+            episode.let_join(newcomer)
+        episode.advance()
+        ending = episode.ending()
+    if newcomer is not None and not episode.joined and alone is not None:
+        check_shared_past(episode.history.links, alone, f"scenario {scenario.id!r}")
+    return episode.result(ending, None if newcomer is None else join_step)
+
+
+class _Episode:
+    """The running state of one episode."""
+
+    def __init__(
+        self, world: World, scenario: Scenario, task: Task, referee: RefereeMaker, max_steps: int
+    ) -> None:
+        self.step = 0
+        self.joined_at: Pose | None = None
+        self.trace = Trace()
+        self._world = world
+        self._scenario = scenario
+        self._task = task
+        self._make_referee = referee
+        self._max_steps = max_steps
+        self._channel = Channel()
+        self._policies: dict[str, Policy] = {}
+        self._members: dict[str, Member] = {}
+        self._observations: dict[str, Observation] = {}
+        self._finished: set[str] = set()
+
+    @property
+    def joined(self) -> bool:
+        return self.joined_at is not None
+
+    def set_up(self, team: Sequence[Policy]) -> None:
+        prepare(self._world, self._scenario)
+        self._referee = self._make_referee(self._world, self._scenario)
+        for member, policy in zip(self._scenario.team, team):
+            self._introduce(member, policy)
+        self._look()
+        self._truth = dict(self._world.agents())
+        self._replaced = self._referee.replaced()
+        self.history = History(self._world.fingerprint())
+        self.trace.objects_before = dict(self._world.truth())
+        self.trace.add_step(0, self._truth, {}, {})
+
+    def let_join(self, policy: Policy) -> None:
+        planned = self._scenario.newcomer
+        self.joined_at = joining_pose(self._world, planned.pose)
+        self._world.add_agent(planned.name, planned.capability, self.joined_at)
+        self._introduce(planned, policy)
+        self._look()
+        self._truth = dict(self._world.agents())
+        self.trace.add_event(self.step, self._truth[planned.name], "joined")
+
+    def advance(self) -> None:
+        """One step: every robot that still can acts in turn, then the world moves on."""
+        self._channel.begin_step(self.step)
+        actions: dict[str, Action] = {}
+        for name, policy in self._policies.items():
+            if name not in self._finished:
+                actions[name] = self._act(name, policy)
+        self._observations = dict(self._world.step(actions))
+        self.step += 1
+        self.history.add_step(actions, self._channel.log, self._world.fingerprint())
+        self.trace.add_messages(self._channel.log)
+        self._note_changes(actions)
+
+    def ending(self) -> Ending | None:
+        if len(self._replaced) == len(self._referee.watched):
+            return Ending.REPLACED
+        if len(self._finished) == len(self._policies):
+            return Ending.STOPPED
+        return Ending.MAX_STEPS if self.step >= self._max_steps else None
+
+    def result(self, ending: Ending, join_step: int | None) -> EpisodeResult:
+        self.trace.objects_after = dict(self._world.truth())
+        self.trace.history = list(self.history.links)
+        return EpisodeResult(
+            scenario=self._scenario,
+            max_steps=self._max_steps,
+            ending=ending,
+            steps=self.step,
+            watched=self._referee.watched,
+            replaced=self._replaced,
+            join_step=join_step,
+            joined=self.joined,
+            joined_at=self.joined_at,
+            moved=self.joined and self.joined_at != self._scenario.newcomer.pose,
+            agent_steps={name: self._truth[name].steps_used for name in self._policies},
+            messages=self._channel.count,
+            undeliverable=self._channel.undeliverable,
+            history=tuple(self.history.links),
+            trace=self.trace,
+        )
+
+    def _introduce(self, member: Member, policy: Policy) -> None:
+        ask = self._channel.ask_for(member.name)
+        policy.reset(member.name, member.capability, self._task, self._scenario.seed, ask)
+        self._policies[member.name] = policy
+        self._members[member.name] = member
+        self._channel.join(member.name, policy)
+        self.trace.agents.append(member.name)
+
+    def _look(self) -> None:
+        """Everybody looks once all are in place, so that robots placed last are seen as well."""
+        self._observations = {name: self._world.observe(name) for name in self._policies}
+
+    def _act(self, name: str, policy: Policy) -> Action:
+        with self._channel.turn_of(name):
+            turn = policy.act(self._observations[name], self._channel.inbox(name))
+        self._channel.send(name, turn.outbox)
+        self.trace.add_decision(self.step, name, turn.trace)
+        return turn.action
+
+    def _note_changes(self, actions: Mapping[str, Action]) -> None:
+        before, self._truth = self._truth, dict(self._world.agents())
+        self.trace.add_step(self.step, self._truth, actions, self._observations)
+        for name, truth in self._truth.items():
+            self._note_hand(before[name], truth)
+            if name not in self._finished and self._is_finished(name, truth):
+                self._finished.add(name)
+                self.trace.add_event(self.step, truth, "stopped" if truth.stopped else "battery empty")
+                if not truth.stopped:
+                    self._channel.silence(name)
+        replaced = self._referee.replaced()
+        for object_id in replaced:
+            if object_id not in self._replaced:
+                found = self._world.truth().get(object_id)
+                self.trace.add_replacement(self.step, object_id, None if found is None else found.position)
+        self._replaced = replaced
+
+    def _note_hand(self, before: AgentTruth, after: AgentTruth) -> None:
+        if before.held is not None and after.held != before.held:
+            self.trace.add_event(self.step, after, "put down", before.held)
+        if after.held is not None and after.held != before.held:
+            self.trace.add_event(self.step, after, "picked up", after.held)
+
+    def _is_finished(self, name: str, truth: AgentTruth) -> bool:
+        return truth.stopped or truth.steps_used >= self._members[name].capability.max_steps

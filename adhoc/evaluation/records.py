@@ -1,0 +1,161 @@
+"""Episode records: one checksummed JSON line an episode, the truth that every table is derived from."""
+
+from __future__ import annotations
+
+import json
+import os
+import warnings
+import zlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from adhoc.core.errors import RecordError
+
+FILE_NAME = "episodes.jsonl"
+UNCHECKED = ("wall_s",)
+"""Fields that the checksum leaves out, so that equal runs have equal checksums: wall-clock times."""
+
+Record = Mapping[str, Any]
+
+REQUIRED: Mapping[str, type | tuple[type, ...]] = {
+    "episode_id": str,
+    "task_id": str,
+    "house_id": str,
+    "rooms": int,
+    "difficulty": str,
+    "teammates": int,
+    "misplaced": int,
+    "team": str,
+    "policy": str,
+    "join_step": (int, type(None)),
+    "seed": int,
+    "model": (str, type(None)),
+    "success": bool,
+    "replaced": int,
+    "partial_success": (int, float),
+    "temporal_steps": int,
+    "action_steps": int,
+    "reference_temporal_steps": (int, type(None)),
+    "efficiency": (int, float, type(None)),
+    "llm": dict,
+    "wall_s": (int, float),
+    "library_version": str,
+    "config_hash": str,
+}
+"""The fields that every record has, with their types; records hold more (see `evaluation.run`)."""
+
+
+class TornRecordWarning(UserWarning):
+    """The last line of a record file is incomplete: the run was killed while writing it."""
+
+
+class RecordFile:
+    """The `episodes.jsonl` of one run folder: read whole, appended one record at a time.
+
+    One process writes to a folder at a time. A record is on the disk when `append` returns.
+    """
+
+    def __init__(self, folder: str | Path) -> None:
+        self.path = Path(folder) / FILE_NAME
+
+    def read(self) -> list[Record]:
+        """All records in the order of writing; none if there is no file yet.
+
+        An incomplete last line is left out with a TornRecordWarning. Raises RecordError, naming file and
+        line, for any other damage and for an episode that is there twice.
+        """
+        if not self.path.exists():
+            return []
+        lines = self.path.read_bytes().split(b"\n")
+        if lines.pop():
+            warnings.warn(
+                f"{self.path}, line {len(lines) + 1}: incomplete last record left out; its episode counts as "
+                "not run",
+                TornRecordWarning,
+                stacklevel=2,
+            )
+        records = [_decode(line, self.path, number) for number, line in enumerate(lines, start=1)]
+        self._check_unique(records)
+        return records
+
+    def append(self, record: Record) -> None:
+        """Write one record behind the last complete one. Raises RecordError if a field is missing."""
+        line = _encode(record, self.path)
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        with open(self.path, "ab+") as file:
+            file.truncate(_complete_bytes(self.path))
+            file.write(line)
+            file.flush()
+            os.fsync(file.fileno())
+
+    def _check_unique(self, records: list[Record]) -> None:
+        first_line: dict[str, int] = {}
+        for number, record in enumerate(records, start=1):
+            earlier = first_line.setdefault(record["episode_id"], number)
+            if earlier != number:
+                raise RecordError(
+                    f"{self.path}, line {number}: episode {record['episode_id']!r} is there twice, first in "
+                    f"line {earlier}; two runs wrote to one folder"
+                )
+
+
+def _encode(record: Record, path: Path) -> bytes:
+    _check_fields(record, f"{path}: new record")
+    try:
+        text = _canonical({**record, "crc": _checksum(record)})
+    except ValueError as error:
+        raise RecordError(f"{path}: record of {record['episode_id']!r} is not JSON: {error}") from error
+    return text.encode() + b"\n"
+
+
+def _decode(line: bytes, path: Path, number: int) -> Record:
+    where = f"{path}, line {number}"
+    try:
+        record = json.loads(line)
+    except ValueError as error:
+        raise RecordError(f"{where}: not a JSON record ({error}); the file is damaged") from error
+    if not isinstance(record, dict) or "crc" not in record:
+        raise RecordError(f"{where}: not an episode record: it has no checksum ('crc')")
+    crc = record.pop("crc")
+    if not _is_intact(record, crc, line):
+        raise RecordError(f"{where}: the checksum ('crc') does not fit the record; the file is damaged")
+    _check_fields(record, where)
+    return record
+
+
+def _check_fields(record: Record, where: str) -> None:
+    for field, kind in REQUIRED.items():
+        if field not in record:
+            raise RecordError(f"{where}: field {field!r} is missing")
+        value = record[field]
+        kinds = kind if isinstance(kind, tuple) else (kind,)
+        if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds):
+            raise RecordError(f"{where}: field {field!r} cannot be {value!r}")
+
+
+def _is_intact(record: Record, crc: object, line: bytes) -> bool:
+    try:
+        return crc == _checksum(record) and _canonical({**record, "crc": crc}).encode() == line
+    except ValueError:
+        return False
+
+
+def _checksum(record: Record) -> str:
+    checked = {field: value for field, value in record.items() if field not in UNCHECKED}
+    return f"{zlib.crc32(_canonical(checked).encode()):08x}"
+
+
+def _canonical(record: Record) -> str:
+    return json.dumps(record, separators=(",", ":"), allow_nan=False)
+
+
+def _complete_bytes(path: Path) -> int:
+    """The length of the file up to the end of its last complete line."""
+    with open(path, "rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(0, size - 1))
+        if file.read(1) == b"\n":
+            return size
+        file.seek(0)
+        return file.read().rfind(b"\n") + 1

@@ -1,0 +1,233 @@
+"""Running a comparison: every scenario with the team alone and with a newcomer, each episode once."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any, Protocol
+
+from adhoc import __version__
+from adhoc.core.errors import ConfigurationError
+from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
+from adhoc.evaluation.episode import EpisodeResult, run_episode
+from adhoc.evaluation.folder import RunFolder
+from adhoc.evaluation.metrics import score
+from adhoc.evaluation.records import Record
+from adhoc.evaluation.scenario import Scenario
+from adhoc.llm.counting import CountingModel, Counts
+from adhoc.worlds.world import World
+
+Artifact = Callable[[EpisodeKey, EpisodeResult, Record], None]
+"""Draws or writes something of a fresh episode; called before its record is stored."""
+
+HASH_LENGTH = 16
+
+
+class Progress(Protocol):
+    """What is told while episodes are run."""
+
+    def begin(self, episodes: int) -> None:
+        """So many episodes will be run or skipped."""
+
+    def skipped(self, record: Record) -> None:
+        """An episode was run before."""
+
+    def started(self, episode_id: str) -> None:
+        """An episode is being run."""
+
+    def finished(self, record: Record) -> None:
+        """It is done, and its record stored."""
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """What one call of `run_comparison` did."""
+
+    run: int
+    skipped: int
+
+
+def run_comparison(
+    world: World,
+    scenarios: Sequence[Scenario],
+    conditions: Conditions,
+    newcomer: Contender | None,
+    join_step: int,
+    folder: RunFolder,
+    progress: Progress,
+    artifacts: Sequence[Artifact] = (),
+) -> RunSummary:
+    """Run what `folder` does not hold yet: in each scenario the team alone, then the team and the newcomer.
+
+    The episode of the team alone is run once and serves every newcomer and every joining step, also those
+    of later calls. An episode with a newcomer is checked to share its past (EpisodeError if not).
+
+    Args:
+        world: Any world; it is reset for every episode.
+        scenarios: What to run, in order.
+        conditions: Task, team and limits.
+        newcomer: The ad hoc policy; None runs the team alone only.
+        join_step: When the newcomer joins.
+        folder: Where records are and go.
+        progress: Is told what happens.
+        artifacts: Called with every fresh episode.
+
+    Raises:
+        ConfigurationError: No scenarios, or two of one id.
+        RecordError: The folder is damaged or belongs to another configuration.
+    """
+    _check_ids(scenarios)
+    plan = [EpisodeKey(scenario, conditions) for scenario in scenarios]
+    if newcomer is not None:
+        pairs = [(key, EpisodeKey(key.scenario, conditions, newcomer, join_step)) for key in plan]
+        plan = [key for pair in pairs for key in pair]
+    progress.begin(len(plan))
+    alone: Record | None = None
+    run = 0
+    for key in plan:
+        reference = None if key.newcomer is None else alone
+        record = folder.find(key)
+        if record is None:
+            progress.started(key.id)
+            record = _run_one(world, key, reference, folder, artifacts)
+            progress.finished(record)
+            run += 1
+        else:
+            progress.skipped(record)
+        alone = record if key.newcomer is None else alone
+    return RunSummary(run, len(plan) - run)
+
+
+def _run_one(
+    world: World,
+    key: EpisodeKey,
+    alone: Record | None,
+    folder: RunFolder,
+    artifacts: Sequence[Artifact],
+) -> Record:
+    conditions, scenario = key.conditions, key.scenario
+    started = time.perf_counter()
+    _reset_counts(key)
+    result = run_episode(
+        world,
+        scenario,
+        conditions.task,
+        [conditions.team.make() for _ in scenario.team],
+        None if key.newcomer is None else key.newcomer.make(),
+        0 if key.join_step is None else key.join_step,
+        conditions.max_steps,
+        conditions.referee,
+        None if alone is None else unpack_history(alone["history"]),
+    )
+    wall = time.perf_counter() - started
+    record = make_record(key, result, alone, _counts(key), wall)
+    for artifact in artifacts:
+        artifact(key, result, record)
+    folder.add(key, record)
+    return record
+
+
+def make_record(
+    key: EpisodeKey,
+    result: EpisodeResult,
+    alone: Record | None,
+    counts: Counts,
+    wall_s: float,
+) -> dict[str, Any]:
+    """The record of one episode; `alone` is the record of the team alone in the same scenario."""
+    scenario = key.scenario
+    reference = None if alone is None else int(alone["temporal_steps"])
+    scored = score(result, reference, key.conditions.failed_share)
+    return {
+        "episode_id": key.id,
+        "task_id": scenario.id,
+        "house_id": scenario.house.id,
+        "rooms": len(scenario.house.rooms),
+        "difficulty": scenario.difficulty.value,
+        "teammates": len(scenario.team),
+        "misplaced": len(result.watched),
+        "team": key.conditions.team.name,
+        "team_label": key.conditions.team.label,
+        "policy": key.policy,
+        "policy_label": "No ad hoc" if key.newcomer is None else key.newcomer.label,
+        "join_step": key.join_step,
+        "joined": result.joined,
+        "joined_at": None if result.joined_at is None else [result.joined_at.x, result.joined_at.y],
+        "joined_elsewhere": result.moved,
+        "seed": scenario.seed,
+        "model": key.model,
+        "max_steps": result.max_steps,
+        "steps": result.steps,
+        "ending": result.ending.value,
+        "success": scored.success,
+        "replaced": len(result.replaced),
+        "partial_success": scored.partial_success,
+        "temporal_steps": scored.temporal_steps,
+        "action_steps": scored.action_steps,
+        "agent_steps": dict(result.agent_steps),
+        "reference_temporal_steps": reference,
+        "efficiency": scored.efficiency,
+        "messages": result.messages,
+        "undeliverable": result.undeliverable,
+        "llm": _llm_field(counts),
+        "planning": asdict(result.trace.planning),
+        "history_hash": result.history_hash,
+        "history": pack_history(result.history) if key.newcomer is None else None,
+        "scenario_hash": scenario.content_hash(),
+        "config_hash": key.config_hash,
+        "failed_share": key.conditions.failed_share.value,
+        "library_version": __version__,
+        "wall_s": round(wall_s, 3),
+    }
+
+
+def pack_history(links: Sequence[str]) -> str:
+    """The hashes of all steps as one string: records of the team alone keep them for later newcomers."""
+    return "".join(links)
+
+
+def unpack_history(packed: str) -> list[str]:
+    """The inverse of `pack_history`."""
+    return [packed[start : start + HASH_LENGTH] for start in range(0, len(packed), HASH_LENGTH)]
+
+
+def _models(key: EpisodeKey) -> list[CountingModel]:
+    """The models of team and newcomer; a shared one once."""
+    contenders = [key.conditions.team, *([] if key.newcomer is None else [key.newcomer])]
+    models = {id(one.model): one.model for one in contenders if one.model is not None}
+    return list(models.values())
+
+
+def _reset_counts(key: EpisodeKey) -> None:
+    for model in _models(key):
+        model.reset()
+
+
+def _counts(key: EpisodeKey) -> Counts:
+    """What the models were used for since the episode began."""
+    total = Counts()
+    for model in _models(key):
+        total.add(model.total)
+    return total
+
+
+def _llm_field(counts: Counts) -> dict[str, Any]:
+    return {
+        "calls": counts.calls,
+        "prompt_tokens": counts.prompt_tokens,
+        "completion_tokens": counts.completion_tokens,
+        "cost_usd": round(counts.cost_usd, 6),
+        "replayed": 0,
+        "repaired": counts.repaired,
+        "invalid": counts.invalid,
+        "outcomes": dict(sorted(counts.outcomes.items())),
+    }
+
+
+def _check_ids(scenarios: Sequence[Scenario]) -> None:
+    ids = [scenario.id for scenario in scenarios]
+    if not ids:
+        raise ConfigurationError("there are no scenarios to run: the benchmark is empty, or limit is 0")
+    if len(set(ids)) != len(ids):
+        raise ConfigurationError(f"scenario ids must be unique: {sorted(ids)}")
