@@ -67,6 +67,14 @@ class TestHearing:
         robot.hear([said(task_state_message("", state_of(None, holding="Fork|1")))])
         assert robot.claimed("Fork|1") == "teammate_1"
 
+    def test_the_claim_of_a_silent_teammate_is_void_after_a_while(self):
+        robot = Memory("robot", TidyingUp(), claims_kept=20)
+        sub_task = Call("Re-place", ("Fork|1", "CounterTop", "Kitchen"))
+        robot.hear([said(task_state_message("", state_of(sub_task)), step=3)])
+        for step, claimant in ((23, "teammate_1"), (24, None)):
+            robot._step = step
+            assert robot.claimed("Fork|1") == claimant
+
     def test_a_teammate_stops_once(self):
         robot = memory()
         message = said(task_state_message("I stop.", state_of(stopped=True)))

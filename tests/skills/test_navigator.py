@@ -1,11 +1,12 @@
 import math
+from dataclasses import replace
 
 import pytest
 from tiny_scene import walled_room
 from tiny_world import TinyWorld, Walker
 
-from adhoc.core.values import Action, ActionName, Pose
-from adhoc.skills.navigator import Travel
+from adhoc.core.values import Action, ActionName, ActionResult, Failure, Pose
+from adhoc.skills.navigator import Navigator, Travel
 
 
 def walker(pose: Pose = Pose(0, 0)) -> Walker:  # noqa: B008
@@ -70,6 +71,21 @@ def test_a_bump_is_forgotten_after_a_while():
     it.navigator.update(it.observation)
     it.navigator.aim_at_point(1.5, 0.0, 0.1)
     assert travel(it) is Travel.ARRIVED
+
+
+@pytest.mark.parametrize("courtesy", [1, 3])
+def test_a_robot_that_meets_another_steps_back_by_its_own_number_of_moves(courtesy):
+    it = walker()
+    navigator = Navigator(it.navigator.map, courtesy=courtesy)
+    navigator.update(it.observation)
+    navigator.aim_at_point(1.5, 0.0, 0.1)
+    navigator.map.robots = {"other": (0.3, 0.0)}
+    bump = ActionResult(Action(ActionName.MOVE_AHEAD), Failure.BLOCKED, "other is in the way")
+    met = replace(it.observation, step=it.observation.step + 1, pose=Pose(0.0, 0.0), last_result=bump)
+    navigator.update(met)
+    navigator.map.robots = {}
+    moves = [navigator.travel(met, 0) for _ in range(courtesy + 1)]
+    assert moves == [Action(ActionName.MOVE_BACK)] * courtesy + [Action(ActionName.MOVE_AHEAD)]
 
 
 def test_furniture_is_driven_around():
