@@ -32,6 +32,15 @@ DIGITS = 4
 """Sizes to a tenth of a millimetre, masses to a tenth of a gram."""
 PROBABILITY_DIGITS = 6
 
+ANCHORS = {"corner": "inCorner", "edge": "onEdge", "middle": "inMiddle"}
+"""Where in a room things stand, and the source's column that says so."""
+GROUP_ROOMS = {
+    "Kitchen": "kitchens",
+    "LivingRoom": "livingRooms",
+    "Bedroom": "bedrooms",
+    "Bathroom": "bathrooms",
+}
+
 
 def main(arguments: list[str] | None = None) -> int:
     """Write the fact files; the exit code."""
@@ -55,9 +64,21 @@ def fact_files(source: Path) -> dict[str, str]:
     return {
         "assets.json": lines(asset_table(assets, masses)),
         "categories.json": lines(category_table(assets, annotations, masses)),
+        "furniture.json": lines(furniture_table(assets, annotations)),
+        "furniture_groups.json": lines(group_table(assets, read_groups(source))),
         "receptacles.json": lines(receptacle_table(statistics_of_receptacles)),
         "wall_holes.json": lines(wall_hole_table(read_database(source, "wall-holes.json"))),
     }
+
+
+def read_groups(source: Path) -> dict[str, Any]:
+    """The JSON databases of the asset groups, by name."""
+    if source.is_dir():
+        paths = [path for root in (source, source.parent) for path in root.glob("**/asset_groups/*.json")]
+        return {path.stem: json.loads(path.read_text(encoding="utf-8")) for path in sorted(paths)}
+    with zipfile.ZipFile(source) as wheel:
+        names = [name for name in sorted(wheel.namelist()) if Path(name).match("*/asset_groups/*.json")]
+        return {Path(name).stem: json.loads(wheel.read(name)) for name in names}
 
 
 def read_database(source: Path, name: str) -> Any:
@@ -120,6 +141,71 @@ def category_table(
         }
         for category in sorted(assets)
     }
+
+
+def furniture_table(assets: dict[str, Any], annotations: dict[str, Any]) -> dict[str, Any]:
+    """category -> where in a room it stands, whether a room may hold several, and whether it is fixed."""
+    return {
+        category: {
+            "anchors": [name for name, column in ANCHORS.items() if annotations[column].get(category)],
+            "multiple": bool(annotations["multiplePerRoom"].get(category)),
+            "fixed": bool(annotations["isKinematic"].get(category)),
+        }
+        for category in sorted(assets)
+    }
+
+
+def group_table(assets: dict[str, Any], groups: dict[str, Any]) -> dict[str, Any]:
+    """name of a furniture group -> rooms, anchors, and members, each after the member it belongs to."""
+    return {
+        name: {
+            "rooms": {
+                room: int(group["groupProperties"]["roomWeights"][column])
+                for room, column in GROUP_ROOMS.items()
+            },
+            "anchors": [anchor for anchor in ANCHORS if group["groupProperties"]["location"][anchor]],
+            "duplicates": bool(group["groupProperties"]["properties"]["allowDuplicates"]),
+            "members": group_members(assets, group),
+        }
+        for name, group in sorted(groups.items())
+    }
+
+
+def group_members(assets: dict[str, Any], group: dict[str, Any]) -> list[dict[str, Any]]:
+    """The members of a group in the frame of its first one: x to the right, y to the front, z up.
+
+    A member's middle is its parent's middle, plus `side` times half the parent's extents, plus `offset`,
+    plus `align` times half its own extents. `turn` is in degrees counter-clockwise, drawn from within
+    `sway` degrees. The source's x axis is mirrored, as its own reader does, and its angles are clockwise.
+    """
+    members: list[dict[str, Any]] = []
+    stack = [(tree, None) for tree in reversed(group["treeData"])]
+    while stack:
+        tree, parent = stack.pop()
+        source = group["assetMetadata"][str(tree["instanceId"])]
+        position = source["position"]
+        stack += [(child, len(members)) for child in reversed(tree.get("children", ()))]
+        row, column = divmod(int(position["relativeAnchorToParent"]), 3)
+        placed = {
+            "side": [1 - column, row - 1],
+            "offset": [round(-position["x"], DIGITS) + 0.0, round(position["z"], DIGITS)],
+            "align": [int(position["xAlignment"]) - 1, int(position["zAlignment"]) - 1],
+        }
+        members.append(
+            {
+                "name": source["name"],
+                "assets": {
+                    category: None if len(ids) == len(assets[category]) else sorted(ids)
+                    for category, ids in sorted(source["assetIds"].items())
+                },
+                "parent": parent,
+                "above": parent is not None and position["verticalAlignment"] == "above",
+                **(placed if parent is not None else {}),
+                "turn": int(-source["rotation"]) % 360,
+                "sway": int(source["randomness"]["dtheta"]),
+            }
+        )
+    return members
 
 
 def is_pickupable(assets: dict[str, Any], category: str) -> bool:

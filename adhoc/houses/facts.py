@@ -64,14 +64,14 @@ def asset(asset_id: str) -> AssetFacts:
 def category_facts(category: str) -> CategoryFacts:
     """The facts of an object type, e.g. `Fridge`. Raises AssetError if it is unknown."""
     entry = _category(category)
-    is_receptacle = category in _table("receptacles") and not entry["pickupable"]
+    is_receptacle = category in fact_table("receptacles") and not entry["pickupable"]
     return CategoryFacts(category, entry["pickupable"], is_receptacle, float(entry["mass"]))
 
 
 @cache
 def categories() -> tuple[str, ...]:
     """All object types, sorted."""
-    return tuple(_table("categories"))
+    return tuple(fact_table("categories"))
 
 
 @cache
@@ -83,7 +83,7 @@ def pickupable_categories() -> tuple[str, ...]:
 def assets_of(category: str) -> tuple[str, ...]:
     """The ids of all assets of an object type, sorted. Raises AssetError if the type is unknown."""
     _category(category)
-    return tuple(_table("assets")[category])
+    return tuple(fact_table("assets")[category])
 
 
 def wall_hole(asset_id: str) -> tuple[float, float]:
@@ -92,7 +92,7 @@ def wall_hole(asset_id: str) -> tuple[float, float]:
     Raises AssetError if the asset is no door or window.
     """
     try:
-        width, height = _table("wall_holes")[asset_id]
+        width, height = fact_table("wall_holes")[asset_id]
     except KeyError:
         raise AssetError(f"unknown door or window asset {asset_id!r}: it is not in the fact tables") from None
     return width, height
@@ -119,7 +119,7 @@ def receptacle_probability(receptacle: str, category: str) -> float:
     """
     _category(category)
     _category(receptacle)
-    return float(_table("receptacles").get(receptacle, {}).get(category, 0.0))
+    return float(fact_table("receptacles").get(receptacle, {}).get(category, 0.0))
 
 
 @cache
@@ -145,7 +145,7 @@ def places_for(category: str) -> tuple[Place, ...]:
     robot cannot put things there. Empty for the few types that have no reasonable place. Raises AssetError
     if the type is unknown.
     """
-    receptacles = [name for name in _table("receptacles") if category_facts(name).is_receptacle]
+    receptacles = [name for name in fact_table("receptacles") if category_facts(name).is_receptacle]
     places = [
         Place(receptacle, room_type)
         for receptacle in (*receptacles, FLOOR)
@@ -167,14 +167,15 @@ def _unlikelihood(category: str, place: Place) -> tuple[bool, float, str, str]:
 
 def _category(category: str) -> Mapping[str, Any]:
     try:
-        entry: Mapping[str, Any] = _table("categories")[category]
+        entry: Mapping[str, Any] = fact_table("categories")[category]
     except KeyError:
         raise AssetError(f"unknown object type {category!r}: it is not in the fact tables") from None
     return entry
 
 
 @cache
-def _table(name: str) -> Mapping[str, Any]:
+def fact_table(name: str) -> Mapping[str, Any]:
+    """One table of `facts_data`, by file name without extension."""
     text = (files("adhoc.houses") / "facts_data" / f"{name}.json").read_text(encoding="utf-8")
     return MappingProxyType(json.loads(text))
 
@@ -182,7 +183,7 @@ def _table(name: str) -> Mapping[str, Any]:
 @cache
 def _assets() -> Mapping[str, AssetFacts]:
     facts = {}
-    for category, rows in _table("assets").items():
+    for category, rows in fact_table("assets").items():
         entry = _category(category)
         for asset_id, (x, y, z, *own_mass) in rows.items():
             mass = float(own_mass[0] if own_mass else entry["mass"])

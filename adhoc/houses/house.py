@@ -41,6 +41,8 @@ class Opening:
     bottom: float
     top: float
     passable: bool
+    asset: str = ""
+    """Door or window asset of ProcTHOR; empty for an opening without one."""
 
 
 @dataclass(frozen=True)

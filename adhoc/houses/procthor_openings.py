@@ -6,11 +6,13 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from adhoc.core.errors import HouseError
-from adhoc.houses.house import Opening, Room, Wall
+from adhoc.houses.house import Corner, Opening, Room, Wall
 from adhoc.houses.json_fields import Fields
 from adhoc.houses.wall_merging import TOLERANCE, Stretch, WallSide
 
 KINDS = {"doors": "door", "windows": "window"}
+CORNER_DIGITS = 9
+"""Decimals of a hole's ends that are kept: a nanometre."""
 
 
 def parse_openings(house: Fields, rooms: Sequence[Room], sides: Sequence[WallSide]) -> tuple[Opening, ...]:
@@ -50,7 +52,7 @@ def assemble_walls(
 
 
 def _parse_opening(fields: Fields, kind: str, room_ids: set[str], sides: dict[str, WallSide]) -> Opening:
-    fields.asset("assetId")
+    asset_id = fields.asset("assetId").asset
     rooms = fields.text("room0"), fields.text("room1")
     for name, room in zip(("room0", "room1"), rooms):
         if room not in room_ids:
@@ -59,9 +61,14 @@ def _parse_opening(fields: Fields, kind: str, room_ids: set[str], sides: dict[st
     if side is None:
         raise fields.error("wall0", "the id of a wall")
     low, high = _parse_hole(fields, side)
-    start, end = sorted((side.point(low[0]), side.point(high[0])))
+    start, end = sorted(_rounded(side.point(along)) for along in (low[0], high[0]))
     passable = kind == "door" and rooms[0] != rooms[1]
-    return Opening(fields.text("id"), kind, rooms, start, end, low[1], high[1], passable)
+    return Opening(fields.text("id"), kind, rooms, start, end, low[1], high[1], passable, asset_id)
+
+
+def _rounded(corner: Corner) -> Corner:
+    """Free of the rounding errors of going along a wall, so that a house is read back exactly as written."""
+    return round(corner[0], CORNER_DIGITS), round(corner[1], CORNER_DIGITS)
 
 
 def _parse_hole(fields: Fields, side: WallSide) -> tuple[tuple[float, float], tuple[float, float]]:

@@ -20,7 +20,7 @@ SCHEMA = "1.0.0"
 DIGITS = 5
 """Decimals of written coordinates: a hundredth of a millimetre."""
 DOOR_ASSET, WINDOW_ASSET = "Doorway_1", "Window_Fixed_60x36"
-"""Written for every door and window, since a house keeps their holes but not their looks."""
+"""Written for a door or window whose asset the house does not say."""
 
 
 def raise_walls(
@@ -114,7 +114,7 @@ def _hole_document(wall: Wall, hole: Opening) -> dict[str, Any]:
     other = hole.rooms[1] if hole.rooms[0] != hole.rooms[1] else "exterior"
     document: dict[str, Any] = {
         "id": hole.id,
-        "assetId": DOOR_ASSET if hole.kind == "door" else WINDOW_ASSET,
+        "assetId": hole.asset or (DOOR_ASSET if hole.kind == "door" else WINDOW_ASSET),
         "room0": hole.rooms[0],
         "room1": hole.rooms[1],
         "wall0": _side_id(hole.rooms[0], wall.start, wall.end),
@@ -148,7 +148,7 @@ def _rotation(thing: HouseObject) -> dict[str, float]:
 
 
 def standard_hole(kind: str) -> tuple[float, float]:
-    """Width and height, in metres, of the doors or windows that are written."""
+    """Width and height, in metres, of the doors or windows that are written by default."""
     return wall_hole(DOOR_ASSET if kind == "door" else WINDOW_ASSET)
 
 

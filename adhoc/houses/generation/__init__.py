@@ -1,0 +1,1 @@
+"""Generating houses of our own in ProcTHOR's format and after its statistics."""
