@@ -32,6 +32,7 @@ format: .venv/installed-dev
 bench: .venv/installed-dev
 	$(BIN)/python benchmarks/speed.py $(HOUSE)
 	$(BIN)/python benchmarks/episode.py $(HOUSE)
+	$(BIN)/python benchmarks/dataset.py
 
 .venv/bin/pip:
 	$(PYTHON) -m venv .venv

@@ -19,6 +19,7 @@ COMMANDS = {
     ),
     "report": ("adhoc.cli.report", "print the paper's table from the records of runs"),
     "house": ("adhoc.cli.house", "describe a ProcTHOR house file, and draw it"),
+    "dataset": ("adhoc.cli.dataset", "make, check and show datasets of houses and tasks"),
 }
 """Modules are imported only when their command is used; each has `main(arguments) -> exit code`."""
 
@@ -45,7 +46,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stderr.write(f"adhoc {command}: error: {error.filename}: {error.strerror}\n")
             return USAGE_ERROR
         except KeyboardInterrupt:
-            sys.stderr.write(f"adhoc {command}: interrupted; the same command goes on where it stopped\n")
+            hint = "the same command goes on where it stopped" if command == "run" else "nothing was finished"
+            sys.stderr.write(f"adhoc {command}: interrupted; {hint}\n")
             return 130
 
 

@@ -21,7 +21,7 @@ once. The same command again goes on where it stopped.
 values:
   join_step=0      the step at which the ad hoc robot joins
   out=out          the run folder
-  seed=0           other seeds give other scenarios of the same make
+  seed=0           other seeds give other scenarios of the same make, or other episodes of fixed tasks
   limit=N          only the first N scenarios
   max_steps=500    the step limit of an episode
   failed_share=from_joining  what a failure counts for the newcomer in #AS: from_joining, or full

@@ -29,7 +29,8 @@ class RunConfig:
     out: str = "out"
     """The run folder: records, pictures, transcripts. The same command again goes on where it stopped."""
     seed: int = 0
-    """Other seeds give other scenarios of the same make; 0 gives the ones that are listed."""
+    """Other seeds give other scenarios of the same make, or other episodes of fixed tasks; 0 gives those that
+    are listed."""
     limit: Optional[int] = None  # noqa: UP045  (omegaconf reads the annotation on Python 3.10)
     """Only the first so many scenarios."""
     max_steps: int = 500

@@ -37,6 +37,10 @@ class RecordError(AdhocError):
     """A run folder or an episode record cannot be read or does not belong with the others."""
 
 
+class DatasetError(AdhocError):
+    """A dataset's file is broken, foreign, of another version, or describes an impossible task."""
+
+
 class EpisodeError(AdhocError):
     """An episode broke one of its own rules: its past differs from that of the team alone, or a policy
     asked a question outside its turn or said something that is no message."""

@@ -21,12 +21,14 @@ class Benchmark(ABC):
     """A list of scenarios."""
 
     @abstractmethod
-    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> Sequence[Scenario]:
         """The first `limit` scenarios (all if None); equal arguments give equal scenarios.
 
-        `world` is needed to try placements, and is reset. Another `seed` gives other scenarios of the same
-        make, none of which is a scenario of any other seed. Raises HouseError, WorldError or
-        ConfigurationError if a scenario cannot be made.
+        `world` is needed to try placements, and is reset, also when a scenario of a lazy sequence is
+        accessed (`evaluation.lazy_scenarios`). Another `seed` gives other scenarios of the same make, or, of
+        fixed tasks, the same tasks with another seed of what is random in an episode; no two seeds share
+        an id or a `Scenario.seed`. Raises HouseError, WorldError, DatasetError or ConfigurationError, at
+        once or on access, if a scenario cannot be made.
         """
 
 

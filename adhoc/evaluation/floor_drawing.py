@@ -35,14 +35,15 @@ LABELLED_AREA = 0.35
 """Furniture with a smaller footprint, in square metres, gets no name."""
 
 
-def draw_house(axes: Axes, house: House) -> None:
+def draw_house(axes: Axes, house: House, size: float = 1.0, furniture_names: bool = True) -> None:
     """Draw rooms with their types, walls with their openings, and the outlines of all furniture.
 
-    Sets equal scales and the limits of the axes; the frame is the world's, in metres.
+    Sets equal scales and the limits of the axes; the frame is the world's, in metres. `size` multiplies the
+    thickness of lines and the size of letters; without `furniture_names`, only rooms are named.
     """
-    _draw_rooms(axes, house)
-    _draw_furniture(axes, house)
-    _draw_walls(axes, house)
+    _draw_rooms(axes, house, size)
+    _draw_furniture(axes, house, size, furniture_names)
+    _draw_walls(axes, house, size)
     xs = [x for room in house.rooms for x, _ in room.polygon]
     ys = [y for room in house.rooms for _, y in room.polygon]
     axes.set_xlim(min(xs) - MARGIN, max(xs) + MARGIN)
@@ -59,7 +60,7 @@ def draw_floor_plan(house: House, path: Path) -> None:
     figure.savefig(path, dpi=110)
 
 
-def _draw_rooms(axes: Axes, house: House) -> None:
+def _draw_rooms(axes: Axes, house: House, size: float) -> None:
     polygons = [room.polygon for room in house.rooms]
     colours = [ROOM_COLOURS.get(room.room_type, OTHER_ROOM) for room in house.rooms]
     axes.add_collection(PolyCollection(polygons, facecolors=colours, edgecolors="none", zorder=0))
@@ -69,7 +70,7 @@ def _draw_rooms(axes: Axes, house: House) -> None:
             x,
             y,
             _spaced(room.room_type).upper(),
-            fontsize=9,
+            fontsize=9 * size,
             color=INK,
             alpha=0.75,
             ha="center",
@@ -79,24 +80,24 @@ def _draw_rooms(axes: Axes, house: House) -> None:
         )
 
 
-def _draw_furniture(axes: Axes, house: House) -> None:
+def _draw_furniture(axes: Axes, house: House, size: float, named: bool) -> None:
     furniture = [thing for thing in house.objects if not thing.pickupable and not _hangs(thing)]
     axes.add_collection(
         PolyCollection(
             [footprint(thing) for thing in furniture],
             facecolors=FURNITURE_FACE,
             edgecolors=FURNITURE_EDGE,
-            linewidths=0.8,
+            linewidths=0.8 * size,
             alpha=0.8,
             zorder=1,
         )
     )
     for thing in furniture:
-        if thing.size[0] * thing.size[1] >= LABELLED_AREA:
+        if named and thing.size[0] * thing.size[1] >= LABELLED_AREA:
             axes.text(
                 *thing.position[:2],
                 _spaced(thing.category).replace(" ", "\n"),
-                fontsize=5,
+                fontsize=5 * size,
                 color="#8b867b",
                 ha="center",
                 va="center",
@@ -104,14 +105,16 @@ def _draw_furniture(axes: Axes, house: House) -> None:
             )
 
 
-def _draw_walls(axes: Axes, house: House) -> None:
+def _draw_walls(axes: Axes, house: House, size: float) -> None:
     walls = [(wall.start, wall.end) for wall in house.walls]
-    axes.add_collection(LineCollection(walls, colors=WALL, linewidths=3.2, capstyle="projecting", zorder=3))
+    axes.add_collection(
+        LineCollection(walls, colors=WALL, linewidths=3.2 * size, capstyle="projecting", zorder=3)
+    )
     for kind, colour in OPENINGS.items():
         holes = [(hole.start, hole.end) for hole in house.openings if hole.kind == kind and not hole.passable]
-        axes.add_collection(LineCollection(holes, colors=colour, linewidths=2.2, zorder=3.1))
+        axes.add_collection(LineCollection(holes, colors=colour, linewidths=2.2 * size, zorder=3.1))
     ways = [(hole.start, hole.end) for hole in house.openings if hole.passable]
-    axes.add_collection(LineCollection(ways, colors=WAY, linewidths=3.8, capstyle="butt", zorder=3.2))
+    axes.add_collection(LineCollection(ways, colors=WAY, linewidths=3.8 * size, capstyle="butt", zorder=3.2))
 
 
 def footprint(thing: HouseObject) -> list[tuple[float, float]]:

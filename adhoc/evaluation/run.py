@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Protocol
@@ -12,6 +13,7 @@ from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
 from adhoc.evaluation.episode import EpisodeResult, run_episode
 from adhoc.evaluation.folder import RunFolder
+from adhoc.evaluation.lazy_scenarios import scenario_ids
 from adhoc.evaluation.metrics import score
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.scenario import Scenario
@@ -65,7 +67,7 @@ def run_comparison(
 
     Args:
         world: Any world; it is reset for every episode.
-        scenarios: What to run, in order.
+        scenarios: What to run, in order; lazy ones are loaded one at a time.
         conditions: Task, team and limits.
         newcomer: The ad hoc policy; None runs the team alone only.
         join_step: When the newcomer joins.
@@ -77,26 +79,28 @@ def run_comparison(
         ConfigurationError: No scenarios, or two of one id.
         RecordError: The folder is damaged or belongs to another configuration.
     """
-    _check_ids(scenarios)
-    plan = [EpisodeKey(scenario, conditions) for scenario in scenarios]
-    if newcomer is not None:
-        pairs = [(key, EpisodeKey(key.scenario, conditions, newcomer, join_step)) for key in plan]
-        plan = [key for pair in pairs for key in pair]
-    progress.begin(len(plan))
-    alone: Record | None = None
+    _check_ids(scenario_ids(scenarios))
     run = 0
-    for key in plan:
-        reference = None if key.newcomer is None else alone
+
+    def perform(key: EpisodeKey, alone: Record | None) -> Record:
+        nonlocal run
         record = folder.find(key)
-        if record is None:
-            progress.started(key.id)
-            record = _run_one(world, key, reference, folder, artifacts)
-            progress.finished(record)
-            run += 1
-        else:
+        if record is not None:
             progress.skipped(record)
-        alone = record if key.newcomer is None else alone
-    return RunSummary(run, len(plan) - run)
+            return record
+        progress.started(key.id)
+        record = _run_one(world, key, alone, folder, artifacts)
+        progress.finished(record)
+        run += 1
+        return record
+
+    planned = len(scenarios) * (1 if newcomer is None else 2)
+    progress.begin(planned)
+    for scenario in scenarios:
+        alone = perform(EpisodeKey(scenario, conditions), None)
+        if newcomer is not None:
+            perform(EpisodeKey(scenario, conditions, newcomer, join_step), alone)
+    return RunSummary(run, planned - run)
 
 
 def _run_one(
@@ -225,9 +229,12 @@ def _llm_field(counts: Counts) -> dict[str, Any]:
     }
 
 
-def _check_ids(scenarios: Sequence[Scenario]) -> None:
-    ids = [scenario.id for scenario in scenarios]
+def _check_ids(ids: Sequence[str]) -> None:
     if not ids:
         raise ConfigurationError("there are no scenarios to run: the benchmark is empty, or limit is 0")
     if len(set(ids)) != len(ids):
-        raise ConfigurationError(f"scenario ids must be unique: {sorted(ids)}")
+        raise ConfigurationError(f"scenario ids must be unique: {_repeated(ids)}")
+
+
+def _repeated(ids: Sequence[str]) -> str:
+    return ", ".join(repr(name) for name, count in sorted(Counter(ids).items()) if count > 1)

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from dataclasses import asdict, dataclass
 from enum import Enum
 
 from adhoc.core.errors import HouseError, WorldError
 from adhoc.core.streams import derive_seed
-from adhoc.core.values import Capability, Pose
+from adhoc.core.values import Capability, Point, Pose
 from adhoc.houses.house import House
 from adhoc.worlds.world import World
+
+SAME_PLACE = 0.01
+"""Metres within which an object lies where it was recorded to lie."""
+_FOREIGN = "the scenario was made for another world or house"
 
 
 class Difficulty(str, Enum):
@@ -28,6 +33,8 @@ class Displacement:
 
     object_id: str
     receptacle_id: str
+    position: Point | None = None
+    """Where its centre came to rest when the scenario was drawn, in metres; None if that is not known."""
 
 
 @dataclass(frozen=True)
@@ -54,11 +61,21 @@ class Scenario:
     newcomer: Member
     seed: int
     difficulty: Difficulty
+    setup_seed: int | None = None
+    """The seed of where misplaced objects lie; `seed` if None. Fixed tasks that are run under several seeds
+    keep it."""
+    source: str = ""
+    """Where it came from, e.g. a file and line, for error texts."""
+
+    @property
+    def placement_seed(self) -> int:
+        """The seed of where misplaced objects lie."""
+        return self.seed if self.setup_seed is None else self.setup_seed
 
     def content_hash(self) -> str:
         """A hash of the whole content, equal on every machine; the file the house came from is left out."""
         content = asdict(self)
-        del content["house"]["source"]
+        del content["house"]["source"], content["source"]
         canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))
         return hashlib.sha256(canonical.encode()).hexdigest()[:16]
 
@@ -68,15 +85,37 @@ def prepare(world: World, scenario: Scenario) -> None:
 
     Deterministic in the scenario. Raises HouseError or WorldError if the world cannot hold it.
     """
-    world.reset(scenario.house, scenario.seed)
-    for displacement in scenario.misplaced:
-        if not displace(world, displacement, scenario.seed):
+    world.reset(scenario.house, scenario.placement_seed)
+    for index, displacement in enumerate(scenario.misplaced):
+        if not displace(world, displacement, scenario.placement_seed):
             raise WorldError(
-                f"scenario {scenario.id!r}: no free place for {displacement.object_id!r} on or in "
-                f"{displacement.receptacle_id!r}; the scenario was made for another world or house"
+                f"{_name(scenario)}: misplaced[{index}]: no free place for {displacement.object_id!r} on "
+                f"or in {displacement.receptacle_id!r}; {_FOREIGN}"
             )
+        _check_position(world, scenario, index)
     for member in scenario.team:
         world.add_agent(member.name, member.capability, member.pose)
+
+
+def _check_position(world: World, scenario: Scenario, index: int) -> None:
+    """A scenario whose objects lie elsewhere than when it was drawn is another scenario."""
+    displacement = scenario.misplaced[index]
+    if displacement.position is None:
+        return
+    found = world.truth()[displacement.object_id].position
+    if math.dist(found, displacement.position) > SAME_PLACE:
+        raise WorldError(
+            f"{_name(scenario)}: misplaced[{index}].position is {_shown(displacement.position)}; "
+            f"{displacement.object_id!r} came to rest at {_shown(found)}; {_FOREIGN}"
+        )
+
+
+def _shown(point: Point) -> str:
+    return "(" + ", ".join(f"{number:.3f}" for number in point) + ")"
+
+
+def _name(scenario: Scenario) -> str:
+    return f"scenario {scenario.id!r}" + (f" ({scenario.source})" if scenario.source else "")
 
 
 def displace(world: World, displacement: Displacement, seed: int) -> bool:

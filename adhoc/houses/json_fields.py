@@ -40,6 +40,8 @@ class Fields:
         value = self._get(name)
         if not isinstance(value, str) or not value:
             raise self.error(name, "a string that is not empty")
+        if not value.isprintable():
+            raise self.error(name, "a string of printable characters")
         return value
 
     def number(self, name: str) -> float:

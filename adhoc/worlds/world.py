@@ -22,6 +22,8 @@ class ObjectTruth:
     receptacle_category: str | None
     holder: str | None = None
     """Id of the robot that holds it."""
+    yaw: float = 0.0
+    """Radians; worlds that turn nothing may leave it at 0."""
 
 
 @dataclass(frozen=True)

@@ -71,6 +71,7 @@ def _object_truth(scene: Scene, thing: Thing, robots: dict[str, Robot]) -> Objec
         thing.receptacle,
         scene.receptacle_category(thing.receptacle),
         thing.holder,
+        thing.placement.yaw,
     )
 
 

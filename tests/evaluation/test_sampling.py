@@ -70,6 +70,42 @@ class TestDraw:
             drawn = sample_scenario(GridWorld(), without_counter, seed, misplaced=1, teammates=3)
             assert [it.object_id for it in drawn.misplaced] == ["Pillow_0"]
 
+    def test_what_no_right_place_has_room_for_is_left_alone(self):
+        class FullCounter(GridWorld):
+            def displace(self, object_id, receptacle_id, seed):
+                return receptacle_id != "CounterTop_0" and super().displace(object_id, receptacle_id, seed)
+
+        world = FullCounter()
+        for seed in range(20):
+            drawn = sample_scenario(world, two_rooms(), seed, misplaced=1, teammates=3)
+            assert [it.object_id for it in drawn.misplaced] == ["Pillow_0"]
+            assert world.truth()["Apple_0"].receptacle == "CounterTop_0"
+        with pytest.raises(ConfigurationError, match="only 1 objects can be misplaced and put right again"):
+            sample_scenario(world, two_rooms(), 0, misplaced=2, teammates=3)
+
+    def test_objects_may_be_refused_where_they_lie(self):
+        asked = []
+
+        def nowhere_but_on_floors(house, truth):
+            asked.append(truth.receptacle)
+            return truth.receptacle == FLOOR
+
+        drawn = sample_scenario(
+            GridWorld(), two_rooms(), 3, misplaced=3, teammates=3, accept=nowhere_but_on_floors
+        )
+        assert {it.receptacle_id for it in drawn.misplaced} == {FLOOR}
+        assert set(asked) > {FLOOR}
+
+    def test_another_team_seed_leaves_the_objects_as_they_are(self):
+        first, second = (
+            sample_scenario(GridWorld(), two_rooms(), 3, misplaced=2, teammates=3, team_seed=seed)
+            for seed in (1, 2)
+        )
+        assert first.misplaced == second.misplaced
+        assert first.house == second.house
+        assert first.team != second.team
+        assert first.newcomer != second.newcomer
+
     def test_too_many_objects_are_refused(self):
         with pytest.raises(ConfigurationError, match="only 3 objects can be misplaced"):
             draw(misplaced=4)
@@ -81,7 +117,7 @@ class TestDraw:
 
     def test_robots_that_do_not_fit_are_refused(self):
         with pytest.raises(WorldError, match="no room for 4 robots 9 m apart"):
-            draw(misplaced=1, teammates=3, ranges=Ranges(apart=9.0))
+            draw(misplaced=1, teammates=3, ranges=Ranges(apart=9.0, crowded=9.0))
 
 
 class TestCapability:
@@ -147,6 +183,21 @@ def test_a_scenario_of_another_world_is_refused():
 
     with pytest.raises(WorldError, match="no free place for 'apple'"):
         prepare(Full(), scenario())
+
+
+def test_objects_that_come_to_rest_elsewhere_make_another_scenario():
+    moved = replace(scenario().misplaced[0], position=(1.0, 1.0, 9.0))
+    with pytest.raises(WorldError, match=r"misplaced\[0\].position is \(1.000, 1.000, 9.000\); 'apple' came"):
+        prepare(GridWorld(), replace(scenario(), misplaced=(moved,)))
+
+
+def test_the_seed_of_the_set_up_is_the_scenarios_own_unless_it_is_given():
+    assert scenario().placement_seed == scenario().seed
+    again = replace(scenario(), seed=99, setup_seed=scenario().seed)
+    first, second = GridWorld(), GridWorld()
+    prepare(first, scenario())
+    prepare(second, again)
+    assert first.truth() == second.truth()
 
 
 class TestBenchmark:

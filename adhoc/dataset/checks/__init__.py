@@ -1,0 +1,1 @@
+"""Whether houses are sound: free cells, sight, penetration, gravity."""

@@ -1,0 +1,1 @@
+"""The files of datasets: houses, tasks and ceilings, written and read with checksums."""

@@ -1,0 +1,1 @@
+"""How generated houses compare with real ones."""
