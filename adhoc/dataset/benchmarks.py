@@ -67,6 +67,7 @@ class TaskFileBenchmark(Benchmark):
         chosen = ids[:limit]
         for task_id in chosen:
             split.where(task_id)  # a subset of a dataset that has not all of it is refused before the run
+        split.open_houses()
 
         def load(position: int) -> Scenario:
             scenario = split.scenario(chosen[position])

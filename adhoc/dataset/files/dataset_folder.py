@@ -155,6 +155,11 @@ class DatasetSplit:
             _load_kernels()
         return self._houses
 
+    def open_houses(self) -> None:
+        """Read the file of the houses now, so that the first task takes no longer than the others, and a
+        damaged file is told at once. Raises DatasetError as `HouseFile` does."""
+        _ = self.house_file
+
     def scenario(self, task_id: str) -> Scenario:
         """One task, checked against its house, as a scenario.
 
