@@ -75,7 +75,8 @@ _HOMES = {
     "adhoc.agents.random_policy": ("RandomPolicy",),
     "adhoc.evaluation.episode": ("EpisodeResult", "run_episode"),
     "adhoc.evaluation.referee": ("PlacementReferee", "Referee"),
-    "adhoc.evaluation.sampling": ("Ranges", "sample_scenario"),
+    "adhoc.evaluation.ranges": ("Ranges",),
+    "adhoc.evaluation.sampling": ("sample_scenario",),
     "adhoc.evaluation.scenario": ("Displacement", "Member", "Scenario"),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}

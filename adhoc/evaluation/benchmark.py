@@ -9,7 +9,8 @@ from pathlib import Path
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import derive_seed
-from adhoc.evaluation.sampling import Ranges, sample_scenario
+from adhoc.evaluation.ranges import Ranges
+from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Scenario
 from adhoc.houses.house import House
 from adhoc.houses.procthor import read_house

@@ -11,9 +11,8 @@ from adhoc.core.values import Pose
 from adhoc.dataset.files.checked_lines import write_compressed
 from adhoc.dataset.files.dataset_folder import DatasetSplit, SplitFiles, dataset_folder
 from adhoc.dataset.files.task_file import HASH_DIGITS
-from adhoc.dataset.making.findable import Findable
 from adhoc.dataset.making.house_making import HousePlan, make_house
-from adhoc.dataset.making.house_tasks import draw_task
+from adhoc.dataset.making.house_tasks import draw_tasks
 from adhoc.evaluation.scenario import prepare
 from adhoc.houses.house import FLOOR
 from adhoc.houses.house_files import decode, documents
@@ -33,7 +32,7 @@ def world():
 def test_a_task_is_the_scenario_that_was_drawn(tiny, world):
     data = DatasetSplit(tiny, "test")
     house = data.house_file.house("test-04-00")
-    drawn = draw_task(world, house, 5, 2, 4, GRID.ranges, Findable())
+    drawn = next(it for it in draw_tasks(world, house, 5, GRID) if it.id == TASK)
     loaded = data.scenario(TASK)
     assert replace(loaded, source="") == drawn
     assert loaded.content_hash() == drawn.content_hash()

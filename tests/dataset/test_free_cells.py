@@ -7,9 +7,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from adhoc.core.values import Pose
-from adhoc.dataset.checks.free_cells import MOVES, FreeCells
+from adhoc.dataset.checks.free_cells import FreeCells
 from adhoc.houses.build import build_solids
 from adhoc.houses.house import House, Room
+from adhoc.houses.lattice_parts import MOVES
 from adhoc.houses.samples import sample_house, sample_names
 from adhoc.houses.solids import Box, Solid, SolidKind
 from adhoc.worlds.pybullet_world import PyBulletWorld

@@ -13,7 +13,7 @@ from adhoc.dataset.generator import Generated
 from adhoc.dataset.making.house_making import HousePlan, make_house
 from adhoc.dataset.making.house_tasks import TaskGrid, task_id
 from adhoc.dataset.making.split_making import make_split
-from adhoc.evaluation.sampling import Ranges
+from adhoc.evaluation.ranges import Ranges
 from adhoc.houses.samples import sample_house
 
 FILES = ["houses-test.jsonl.gz", "houses-test.sha256", "making-test.json", "tasks-test.jsonl.gz"]

@@ -121,9 +121,9 @@ class TestBenchmark:
 
     def test_a_house_is_not_taken_twice(self, tmp_path, world):
         path = write(tmp_path / "houses.jsonl", variants("one_room", 2))
-        scenarios = self.benchmark(path, counts=(1,), houses_per_count=2, seed=1).scenarios(world, 0)
+        scenarios = self.benchmark(path, counts=(1,), houses_per_count=2).scenarios(world, 0)
         assert scenarios[29].house.source != scenarios[0].house.source
-        assert scenarios[0].house.id == "procthor10k-test-s1-01-00"
+        assert scenarios[0].house.id == "procthor10k-test-01-00"
 
     def test_too_few_houses_are_told(self, tmp_path, world):
         path = write(tmp_path / "houses.jsonl", variants("one_room", 2))

@@ -14,9 +14,12 @@ from adhoc.core.geometry import planar_distance
 from adhoc.core.streams import stream
 from adhoc.core.values import Pose
 from adhoc.evaluation.benchmark import Draw, HouseBenchmark, SampleBenchmark
+from adhoc.evaluation.misplacing import misplace
+from adhoc.evaluation.ranges import Ranges
 from adhoc.evaluation.referee import PlacementReferee
-from adhoc.evaluation.sampling import Ranges, draw_capability, draw_team, sample_scenario
+from adhoc.evaluation.sampling import add_robots, sample_scenario
 from adhoc.evaluation.scenario import Difficulty, Displacement, difficulty_of, prepare
+from adhoc.evaluation.team_drawing import draw_capability, draw_team
 from adhoc.houses import samples
 from adhoc.houses.house import FLOOR
 
@@ -86,25 +89,41 @@ class TestDraw:
     def test_objects_may_be_refused_where_they_lie(self):
         asked = []
 
-        def nowhere_but_on_floors(house, truth):
+        def nowhere_but_on_floors(truth):
             asked.append(truth.receptacle)
             return truth.receptacle == FLOOR
 
         drawn = sample_scenario(
-            GridWorld(), two_rooms(), 3, misplaced=3, teammates=3, accept=nowhere_but_on_floors
+            GridWorld(), two_rooms(), 3, misplaced=3, teammates=3, accepting=lambda _: nowhere_but_on_floors
         )
         assert {it.receptacle_id for it in drawn.misplaced} == {FLOOR}
         assert set(asked) > {FLOOR}
 
-    def test_another_team_seed_leaves_the_objects_as_they_are(self):
-        first, second = (
-            sample_scenario(GridWorld(), two_rooms(), 3, misplaced=2, teammates=3, team_seed=seed)
-            for seed in (1, 2)
-        )
-        assert first.misplaced == second.misplaced
-        assert first.house == second.house
-        assert first.team != second.team
-        assert first.newcomer != second.newcomer
+    def test_robots_are_added_to_one_disorder_again_and_again(self):
+        world = GridWorld()
+        disorder = misplace(world, two_rooms(), 3, 2)
+        before = world.truth()
+        drawn = [add_robots(world, disorder, seed, 3, Ranges(), "it") for seed in (3, 4)]
+        assert world.truth() == before
+        assert drawn[0] == replace(draw(3, misplaced=2, teammates=3), id="it")
+        assert drawn[0].misplaced == drawn[1].misplaced
+        assert drawn[0].team != drawn[1].team
+        assert drawn[0].newcomer != drawn[1].newcomer
+
+    def test_an_object_that_takes_the_last_room_of_another_is_misplaced_elsewhere(self):
+        """The bed has room for one thing; whatever lies on it keeps a misplaced pillow away."""
+
+        class SmallBed(GridWorld):
+            def displace(self, object_id, receptacle_id, seed):
+                others = [it for name, it in self.truth().items() if name != object_id]
+                if receptacle_id == "Bed_0" and any(it.receptacle == "Bed_0" for it in others):
+                    return False
+                return super().displace(object_id, receptacle_id, seed)
+
+        for seed in range(40):
+            drawn = sample_scenario(SmallBed(), two_rooms(), seed, misplaced=3, teammates=3)
+            assert len(drawn.misplaced) == 3
+            assert "Bed_0" not in {it.receptacle_id for it in drawn.misplaced if it.object_id != "Pillow_0"}
 
     def test_too_many_objects_are_refused(self):
         with pytest.raises(ConfigurationError, match="only 3 objects can be misplaced"):

@@ -12,14 +12,12 @@ from numpy.typing import NDArray
 from adhoc.dataset.checks.box_arrays import FloatArray, box_arrays
 from adhoc.houses import floor_plan
 from adhoc.houses.house import Room
+from adhoc.houses.lattice_parts import largest_part, steps_between
 from adhoc.houses.solids import Solid, SolidKind
 
 SAFETY = -1e-6
 """A robot keeps this distance to every box, in metres. Below 0 it may just touch, as in the simulator, where
 contact begins at a tenth of a millimetre of penetration; that tenth is what keeps this side conservative."""
-
-MOVES = ((1, 0), (-1, 0), (0, 1), (0, -1))
-"""The steps of the last axis of `FreeCells.steps`, in columns and rows."""
 
 _OUTLINE = 0.01
 """A point this near to a room's outline counts as in the room, as in `worlds.scene`."""
@@ -43,7 +41,8 @@ class FreeCells:
     Attributes:
         origin: lattice column and row of the array index (0, 0).
         free: (columns, rows) bool, where a robot fits.
-        steps: (columns, rows, 4) bool, whether both ends and the way to the neighbour of `MOVES` are free.
+        steps: (columns, rows, 4) bool, whether both ends and the way to the neighbour of
+            `lattice_parts.MOVES` are free.
         connected: (columns, rows) bool, the largest part connected by free moves; of equally large ones the
             part with the smallest cell.
         room: (columns, rows) int16, index of the room below the cell, -1 outside the house.
@@ -74,12 +73,8 @@ class FreeCells:
         self.free: NDArray[np.bool_]
         self.room: NDArray[np.int16]
         self.free, self.room = here
-        self.steps: NDArray[np.bool_] = np.zeros((*shape, 4), np.bool_)
-        self.steps[:-1, :, 0] = self.free[:-1] & east[:-1] & self.free[1:]
-        self.steps[1:, :, 1] = self.steps[:-1, :, 0]
-        self.steps[:, :-1, 2] = self.free[:, :-1] & north[:, :-1] & self.free[:, 1:]
-        self.steps[:, 1:, 3] = self.steps[:, :-1, 2]
-        self.connected: NDArray[np.bool_] = _largest_part(self.free, self.steps)
+        self.steps: NDArray[np.bool_] = steps_between(self.free, east, north)
+        self.connected: NDArray[np.bool_] = largest_part(self.free, self.steps)
 
     def point(self, i: int, j: int) -> tuple[float, float]:
         """Where a cell is: x and y in metres."""
@@ -210,34 +205,3 @@ def _block(
                 before = max(0.0, abs(cosine * dy - sine * dx) - halves[box, 1])
                 if beside * beside + before * before < radius * radius:
                     free[i, j] = False
-
-
-@numba.njit(cache=True, nogil=True)
-def _largest_part(free: NDArray[np.bool_], steps: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    columns, rows = free.shape
-    part_of = np.full((columns, rows), -1, np.int64)
-    queue = np.empty((columns * rows, 2), np.int64)
-    best, most, part = -1, 0, 0
-    for column in range(columns):
-        for row in range(rows):
-            if not free[column, row] or part_of[column, row] >= 0:
-                continue
-            part_of[column, row] = part
-            queue[0, 0], queue[0, 1] = column, row
-            taken, size = 0, 1
-            while taken < size:
-                i, j = queue[taken, 0], queue[taken, 1]
-                taken += 1
-                for move in range(4):
-                    if not steps[i, j, move]:
-                        continue
-                    neighbour_i, neighbour_j = i + MOVES[move][0], j + MOVES[move][1]
-                    if part_of[neighbour_i, neighbour_j] < 0:
-                        part_of[neighbour_i, neighbour_j] = part
-                        queue[size, 0], queue[size, 1] = neighbour_i, neighbour_j
-                        size += 1
-            if size > most:
-                best, most = part, size
-            part += 1
-    connected: NDArray[np.bool_] = part_of == (best if best >= 0 else -2)
-    return connected

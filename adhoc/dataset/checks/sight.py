@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from adhoc.dataset.checks.box_arrays import BoxArrays, FloatArray, box_arrays
 from adhoc.dataset.checks.free_cells import FreeCells
-from adhoc.dataset.checks.sight_rays import LOOK_NUMBERS, horizontal_distances, search_views
+from adhoc.dataset.checks.sight_rays import horizontal_distances, is_in_a_picture
 from adhoc.houses.solids import Solid
 
 HEIGHTS = (0.9, 1.6)
@@ -18,21 +16,6 @@ HEIGHTS = (0.9, 1.6)
 
 _SAFETY = 1e-4
 """Metres that a seen point is nearer than the reach, since a sensor rounds its depth."""
-
-
-class Look(NamedTuple):
-    """How a robot sees a thing, in radians and metres: at this yaw and pitch it is in the picture."""
-
-    yaw: float
-    """Of the robot: a multiple of 90 degrees."""
-    pitch: float
-    """Of the camera, down being positive: a multiple of 30 degrees."""
-    azimuth: float
-    """Direction of the seen point on the floor plan."""
-    elevation: float
-    """Its angle above the horizon of the camera."""
-    distance: float
-    """Horizontal distance from the robot's axis to the seen point."""
 
 
 class Sight:
@@ -46,7 +29,7 @@ class Sight:
     Args:
         solids: everything in the house.
         cells: where robots can stand.
-        heights: of cameras, in metres, for `is_seen`.
+        heights: of cameras, in metres.
         reach: metres.
     """
 
@@ -66,34 +49,16 @@ class Sight:
     def is_seen(self, solid_id: str) -> bool:
         """Whether a robot of one of the `heights` sees and reaches it. Raises KeyError for an unknown id."""
         number = self._numbers[solid_id]
-        cells, eyes = self._eyes(number, self._heights)
-        here = self._cells.room_at(*self._bounds[number, :, :2].mean(axis=0))
-        beyond_walls = self._cells.room[cells[:, 0], cells[:, 1]] != here
-        seen, _ = self._search(number, eyes[np.argsort(beyond_walls, kind="stable")], at_first=True)
-        return bool(seen.any())
-
-    def viewpoints(self, solid_id: str, height: float) -> list[tuple[int, int]]:
-        """The cells from which a robot whose camera is at `height` metres sees and reaches it, nearest first.
-
-        Raises KeyError for an unknown id.
-        """
-        cells, eyes = self._eyes(self._numbers[solid_id], (height,))
-        seen, _ = self._search(self._numbers[solid_id], eyes, at_first=False)
-        return [(int(i), int(j)) for i, j in cells[seen]]
-
-    def look(self, solid_id: str, height: float, cell: tuple[int, int]) -> Look | None:
-        """How a robot at the cell, its camera at `height` metres, sees and reaches it; None if it does not.
-
-        Raises KeyError for an unknown id.
-        """
-        x, y = self._cells.point(*cell)
-        seen, looks = self._search(self._numbers[solid_id], np.array([[x, y, height]]), at_first=True)
-        return Look(*looks[0].tolist()) if seen[0] else None
-
-    def aim(self, solid_id: str, height: float, cell: tuple[int, int]) -> tuple[float, float] | None:
-        """Azimuth and elevation in radians of the point that `look` finds; None if it finds none."""
-        look = self.look(solid_id, height, cell)
-        return None if look is None else (look.azimuth, look.elevation)
+        return bool(
+            is_in_a_picture(
+                self._eyes(number),
+                self._bounds[number],
+                self._table,
+                self._boxes.owners,
+                number,
+                self._reach - _SAFETY,
+            )
+        )
 
     def with_moved(self, solid: Solid, cells: FreeCells | None = None) -> Sight:
         """The same house with one thing elsewhere; `cells`, if robots then fit elsewhere.
@@ -118,38 +83,23 @@ class Sight:
 
     def _stand_in(self, cells: FreeCells) -> None:
         self._cells = cells
-        self._indices = np.argwhere(cells.connected)
-        self._places = (self._indices + np.array(cells.origin)) * cells.grid_size
+        self._places = (np.argwhere(cells.connected) + np.array(cells.origin)) * cells.grid_size
+        self._rooms = cells.room[cells.connected]
 
     def _show(self, boxes: BoxArrays) -> None:
         self._boxes = boxes
         self._table = np.concatenate([boxes.centers, boxes.halves, boxes.headings], axis=1)
         self._bounds = boxes.bounds(len(self._numbers))
 
-    def _eyes(self, number: int, heights: Sequence[float]) -> tuple[NDArray[np.int64], FloatArray]:
-        """The cells (E, 2) and camera positions (E, 3) from which it could be in reach, nearest first."""
+    def _eyes(self, number: int) -> FloatArray:
+        """The camera positions (E, 3) from which it could be in reach: in its room first, then nearest."""
         own = self._table[self._boxes.owners == number]
         distances = horizontal_distances(self._places, own, self._reach)
         around = np.flatnonzero(distances <= self._reach)
-        around = around[np.argsort(distances[around], kind="stable")]
-        chosen = np.repeat(around, len(heights))
-        eyes = np.empty((len(chosen), 3))
-        eyes[:, :2] = self._places[chosen]
-        eyes.reshape(-1, len(heights), 3)[:, :, 2] = heights
-        return self._indices[chosen], eyes
-
-    def _search(self, number: int, eyes: FloatArray, at_first: bool) -> tuple[NDArray[np.bool_], FloatArray]:
-        seen = np.zeros(len(eyes), np.bool_)
-        looks = np.zeros((len(eyes), LOOK_NUMBERS))
-        search_views(
-            eyes,
-            self._bounds[number],
-            self._table,
-            self._boxes.owners,
-            number,
-            self._reach - _SAFETY,
-            at_first,
-            seen,
-            looks,
-        )
-        return seen, looks
+        here = self._cells.room_at(*self._bounds[number, :, :2].mean(axis=0))
+        beyond_walls = self._rooms[around] != here
+        around = around[np.lexsort((distances[around], beyond_walls))]
+        eyes = np.empty((len(around), len(self._heights), 3))
+        eyes[:, :, :2] = self._places[around, None]
+        eyes[:, :, 2] = self._heights
+        return eyes.reshape(-1, 3)

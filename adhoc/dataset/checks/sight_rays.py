@@ -8,7 +8,9 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
+from adhoc.core.values import Point
 from adhoc.dataset.checks.box_arrays import FloatArray
+from adhoc.houses.box_rays import along_axes, crossing
 
 IMAGE_SIZE = 128
 """Width and height of the camera's pictures in pixels, as `PyBulletWorld` takes them by default."""
@@ -24,47 +26,38 @@ MOST_PIXELS_A_SIDE = 12
 
 _NEAREST = 0.05
 _TIE = 1e-6
-_YAW, _PITCH, _AZIMUTH, _ELEVATION, _DISTANCE = range(5)
-LOOK_NUMBERS = 5
-"""Numbers of one look: yaw and pitch of the camera, azimuth and elevation of the seen point (radians),
-and its horizontal distance (metres)."""
+
+_Camera = tuple[float, float, float, float]
 
 
 @numba.njit(cache=True, nogil=True)
-def search_views(
+def is_in_a_picture(
     eyes: FloatArray,
     bounds: FloatArray,
     boxes: FloatArray,
     owners: NDArray[np.int64],
     target: int,
     reach: float,
-    at_first: bool,
-    seen: NDArray[np.bool_],
-    looks: FloatArray,
-) -> None:
-    """From which eyes a picture shows some point of the target within reach.
+) -> bool:
+    """Whether a picture from one of the eyes shows some point of the target within reach.
 
     Args:
-        eyes: (E, 3) camera positions.
+        eyes: (E, 3) camera positions, tried in this order.
         bounds: (2, 3) lowest and highest corner of the target.
         boxes: (N, 8) centres, half extents and headings of all boxes that can be in between, and the
             target's own.
         owners: (N,) the solid of each box.
         target: the solid to look for.
         reach: horizontal metres within which a seen point counts.
-        at_first: whether to stop at the first eye that sees it.
-        seen: (E,) filled in.
-        looks: (E, LOOK_NUMBERS) filled in where seen.
     """
     own = np.flatnonzero(owners == target)
     near = _boxes_around(bounds, reach, boxes, owners, target)
     others = np.empty(len(near), np.int64)
-    for eye in range(eyes.shape[0]):
-        count = _boxes_between(eyes[eye], bounds, boxes, near, others)
-        if _glance_around(eyes[eye], bounds, boxes, own, others[:count], reach, looks[eye]):
-            seen[eye] = True
-            if at_first:
-                return
+    for eye in eyes:
+        count = _boxes_between(eye, bounds, boxes, near, others)
+        if _glance_around(eye, bounds, boxes, own, others[:count], reach):
+            return True
+    return False
 
 
 @numba.njit(cache=True, nogil=True)
@@ -139,7 +132,6 @@ def _glance_around(
     own: NDArray[np.int64],
     others: NDArray[np.int64],
     reach: float,
-    look: FloatArray,
 ) -> bool:
     """Try the camera's yaws and pitches, those that look towards the target first."""
     beside_x = min(max(eye[0], bounds[0, 0]), bounds[1, 0]) - eye[0]
@@ -154,33 +146,67 @@ def _glance_around(
     for quarter in (first, second):
         tried = 0
         for _ in range(len(PITCHES)):
-            best = -1
-            for option in range(len(PITCHES)):
-                if tried & (1 << option) == 0 and (
-                    best < 0 or abs(PITCHES[option] - below) < abs(PITCHES[best] - below)
-                ):
-                    best = option
-            tried |= 1 << best
-            if _glance(eye, quarter % 4, PITCHES[best], bounds, boxes, own, others, reach, look):
+            option = _nearest_pitch(below, tried)
+            tried |= 1 << option
+            if _glance(eye, _camera(quarter % 4, PITCHES[option]), bounds, boxes, own, others, reach):
                 return True
     return False
 
 
 @numba.njit(cache=True, nogil=True)
+def _nearest_pitch(below: float, tried: int) -> int:
+    """Which of `PITCHES` is nearest to an angle, of those whose bit is not set."""
+    best = -1
+    for option in range(len(PITCHES)):
+        if tried & (1 << option) == 0 and (
+            best < 0 or abs(PITCHES[option] - below) < abs(PITCHES[best] - below)
+        ):
+            best = option
+    return best
+
+
+@numba.njit(cache=True, nogil=True)
+def _camera(quarter: int, pitch: float) -> _Camera:
+    """Cosine and sine of a camera's yaw, a number of quarter turns, and of its pitch."""
+    cos_yaw, sin_yaw = (1.0, 0.0, -1.0, 0.0)[quarter], (0.0, 1.0, 0.0, -1.0)[quarter]
+    return cos_yaw, sin_yaw, math.cos(pitch), math.sin(pitch)
+
+
+@numba.njit(cache=True, nogil=True)
 def _glance(
     eye: FloatArray,
-    quarter: int,
-    pitch: float,
+    camera: _Camera,
     bounds: FloatArray,
     boxes: FloatArray,
     own: NDArray[np.int64],
     others: NDArray[np.int64],
     reach: float,
-    look: FloatArray,
 ) -> bool:
-    """Whether one picture shows the target within reach at one of the sampled pixels."""
-    cos_yaw, sin_yaw = (1.0, 0.0, -1.0, 0.0)[quarter], (0.0, 1.0, 0.0, -1.0)[quarter]
-    cos_pitch, sin_pitch = math.cos(pitch), math.sin(pitch)
+    """Whether one picture shows the target within reach at a sampled pixel, the middle ones first."""
+    left, right, top, bottom = _window(eye, camera, bounds)
+    across, down = right - left + 1, bottom - top + 1
+    if across <= 0 or down <= 0:
+        return False
+    samples_across, samples_down = min(across, MOST_PIXELS_A_SIDE), min(down, MOST_PIXELS_A_SIDE)
+    samples = samples_across * samples_down
+    for sample in range(samples):
+        turned = (sample + samples // 2 + samples_across // 2 * (1 - samples_down % 2)) % samples
+        column = left + ((turned % samples_across) * 2 + 1) * across // (2 * samples_across)
+        row = top + ((turned // samples_across) * 2 + 1) * down // (2 * samples_down)
+        way = _way_through(camera, column, row)
+        if _meets_target_first(eye, way, boxes, own, others, reach / math.hypot(way[0], way[1])):
+            return True
+    return False
+
+
+@numba.njit(cache=True, nogil=True)
+def _window(eye: FloatArray, camera: _Camera, bounds: FloatArray) -> tuple[int, int, int, int]:
+    """First and last column, first and last row of the pixels that can show what is within bounds.
+
+    The last is before the first where none can; all pixels where a corner is not in front of the camera.
+    """
+    cos_yaw, sin_yaw, cos_pitch, sin_pitch = camera
+    last = IMAGE_SIZE - 1
     left, right, top, bottom = math.inf, -math.inf, math.inf, -math.inf
     behind = 0
     for corner in range(8):
@@ -196,96 +222,61 @@ def _glance(
         v = (-ahead * sin_pitch - dz * cos_pitch) / z
         left, right = min(left, u), max(right, u)
         top, bottom = min(top, v), max(bottom, v)
-    if behind == 8:
-        return False
-    last = IMAGE_SIZE - 1
-    columns, rows = (0, last), (0, last)
-    if behind == 0:
-        if left > 1.0 or right < -1.0 or top > 1.0 or bottom < -1.0:
-            return False
-        columns = (
-            max(0, math.ceil(max(left, -1.0) * FOCAL + IMAGE_SIZE / 2)),
-            min(last, math.floor(min(right, 1.0) * FOCAL + IMAGE_SIZE / 2)),
-        )
-        rows = (
-            max(0, math.ceil(max(top, -1.0) * FOCAL + IMAGE_SIZE / 2 - 1)),
-            min(last, math.floor(min(bottom, 1.0) * FOCAL + IMAGE_SIZE / 2 - 1)),
-        )
-    across, down = columns[1] - columns[0] + 1, rows[1] - rows[0] + 1
-    if across <= 0 or down <= 0:
-        return False
-    samples_across, samples_down = min(across, MOST_PIXELS_A_SIDE), min(down, MOST_PIXELS_A_SIDE)
-    samples = samples_across * samples_down
-    for sample in range(samples):
-        turned = (sample + samples // 2 + samples_across // 2 * (1 - samples_down % 2)) % samples
-        column = columns[0] + ((turned % samples_across) * 2 + 1) * across // (2 * samples_across)
-        row = rows[0] + ((turned // samples_across) * 2 + 1) * down // (2 * samples_down)
-        u = (column - IMAGE_SIZE / 2) / FOCAL
-        v = (row - (IMAGE_SIZE / 2 - 1)) / FOCAL
-        dx = cos_yaw * cos_pitch + u * sin_yaw - v * cos_yaw * sin_pitch
-        dy = sin_yaw * cos_pitch - u * cos_yaw - v * sin_yaw * sin_pitch
-        dz = -sin_pitch - v * cos_pitch
-        level = math.hypot(dx, dy)
-        depth = _depth_of_target(eye, dx, dy, dz, boxes, own, others, reach / level)
-        if depth < math.inf:
-            look[_YAW] = math.atan2(sin_yaw, cos_yaw)
-            look[_PITCH] = pitch
-            look[_AZIMUTH] = math.atan2(dy, dx)
-            look[_ELEVATION] = math.atan2(dz, level)
-            look[_DISTANCE] = depth * level
-            return True
-    return False
+    if 0 < behind < 8:
+        return 0, last, 0, last
+    if behind == 8 or left > 1.0 or right < -1.0 or top > 1.0 or bottom < -1.0:
+        return 0, -1, 0, -1
+    return (
+        max(0, math.ceil(max(left, -1.0) * FOCAL + IMAGE_SIZE / 2)),
+        min(last, math.floor(min(right, 1.0) * FOCAL + IMAGE_SIZE / 2)),
+        max(0, math.ceil(max(top, -1.0) * FOCAL + IMAGE_SIZE / 2 - 1)),
+        min(last, math.floor(min(bottom, 1.0) * FOCAL + IMAGE_SIZE / 2 - 1)),
+    )
 
 
 @numba.njit(cache=True, nogil=True)
-def _depth_of_target(
+def _way_through(camera: _Camera, column: int, row: int) -> Point:
+    """The direction in the world of the ray through a pixel, 1 m deep in the picture."""
+    cos_yaw, sin_yaw, cos_pitch, sin_pitch = camera
+    u = (column - IMAGE_SIZE / 2) / FOCAL
+    v = (row - (IMAGE_SIZE / 2 - 1)) / FOCAL
+    return (
+        cos_yaw * cos_pitch + u * sin_yaw - v * cos_yaw * sin_pitch,
+        sin_yaw * cos_pitch - u * cos_yaw - v * sin_yaw * sin_pitch,
+        -sin_pitch - v * cos_pitch,
+    )
+
+
+@numba.njit(cache=True, nogil=True)
+def _meets_target_first(
     eye: FloatArray,
-    dx: float,
-    dy: float,
-    dz: float,
+    way: Point,
     boxes: FloatArray,
     own: NDArray[np.int64],
     others: NDArray[np.int64],
     farthest: float,
-) -> float:
-    """How far along the ray the target is the first thing hit; inf if it is not, or not within `farthest`.
+) -> bool:
+    """Whether the target is the first thing that a ray hits, at most `farthest` times `way` from the eye.
 
     Ties count as not. The box that was in the way moves to the front of `others`: it often is again.
     """
     depth = math.inf
     for box in own:
-        depth = min(depth, _entry(eye, dx, dy, dz, boxes[box]))
+        depth = min(depth, _entry(eye, way, boxes[box]))
     if depth > farthest:
-        return math.inf
+        return False
     for place in range(len(others)):
-        if _entry(eye, dx, dy, dz, boxes[others[place]]) * (1.0 - _TIE) <= depth:
+        if _entry(eye, way, boxes[others[place]]) * (1.0 - _TIE) <= depth:
             others[0], others[place] = others[place], others[0]
-            return math.inf
-    return depth
+            return False
+    return True
 
 
 @numba.njit(cache=True, nogil=True)
-def _entry(eye: FloatArray, dx: float, dy: float, dz: float, box: FloatArray) -> float:
+def _entry(eye: FloatArray, way: Point, box: FloatArray) -> float:
     """How far along the ray it enters the box; inf if it does not, or begins inside."""
     cosine, sine = box[6], box[7]
-    offset_x, offset_y = eye[0] - box[0], eye[1] - box[1]
-    low, high = 0.0, math.inf
-    for axis in range(3):
-        if axis == 0:
-            start, slope = cosine * offset_x + sine * offset_y, cosine * dx + sine * dy
-        elif axis == 1:
-            start, slope = cosine * offset_y - sine * offset_x, cosine * dy - sine * dx
-        else:
-            start, slope = eye[2] - box[2], dz
-        half = box[3 + axis]
-        if abs(slope) < 1e-12:
-            if abs(start) > half:
-                return math.inf
-            continue
-        nearer, farther = (-half - start) / slope, (half - start) / slope
-        if nearer > farther:
-            nearer, farther = farther, nearer
-        low, high = max(low, nearer), min(high, farther)
-        if low > high:
-            return math.inf
-    return low if low > 0.0 else math.inf
+    start = along_axes((eye[0] - box[0], eye[1] - box[1], eye[2] - box[2]), cosine, sine)
+    x, y, z = box[3], box[4], box[5]
+    enter, _ = crossing(start, along_axes(way, cosine, sine), (-x, -y, -z), (x, y, z), math.inf)
+    return enter if enter > 0.0 else math.inf

@@ -10,7 +10,7 @@ from adhoc.core.geometry import planar_distance
 from adhoc.core.values import Pose
 from adhoc.dataset.checks.free_cells import FreeCells
 from adhoc.dataset.files.task_file import StoredTask
-from adhoc.evaluation.sampling import Ranges
+from adhoc.evaluation.ranges import Ranges
 from adhoc.evaluation.scenario import Displacement, difficulty_of
 from adhoc.houses.build import build_solids
 from adhoc.houses.house import FLOOR, House

@@ -25,7 +25,7 @@ from adhoc.dataset.files.line_fields import (
     whole,
     whole_pair,
 )
-from adhoc.evaluation.sampling import Ranges
+from adhoc.evaluation.ranges import Ranges
 from adhoc.evaluation.scenario import Difficulty, Displacement, Member
 from adhoc.houses.json_fields import LARGEST, Fields
 

@@ -56,7 +56,7 @@ def total_variation(first: Mapping[str, float], second: Mapping[str, float]) -> 
         ValueError: The counts of a sample add up to nothing.
     """
     a, b = shares(first), shares(second)
-    return sum(abs(a.get(name, 0.0) - b.get(name, 0.0)) for name in {*a, *b}) / 2
+    return sum(abs(a.get(name, 0.0) - b.get(name, 0.0)) for name in sorted({*a, *b})) / 2
 
 
 def shares(counts: Mapping[str, float]) -> dict[str, float]:

@@ -15,21 +15,22 @@ from adhoc.worlds.world import ObjectTruth
 
 
 class Findable:
-    """Accepts an object where a robot can see and reach it, as `evaluation.sampling.Accept`.
+    """Accepts an object where a robot can see and reach it, as `evaluation.misplacing.Accept`.
 
-    Objects that were accepted before in the same house must stay in sight, and an object on the floor must
-    not cut off any place that robots came to before. One instance serves any number of scenarios, one after
-    the other.
+    Objects that were accepted before must stay in sight, and an object on the floor must not cut off any
+    place that robots came to before.
+
+    Args:
+        house: The house before anything is misplaced in it.
     """
 
-    def __init__(self) -> None:
-        self._state: _State | None = None
+    def __init__(self, house: House) -> None:
+        self._house = house
+        self._state = _State.of(house)
 
-    def __call__(self, house: House, truth: ObjectTruth) -> bool:
+    def __call__(self, truth: ObjectTruth) -> bool:
         """Whether the object can be found where it is now."""
-        if self._state is None or house is not self._state.house:
-            self._state = _State.of(house)
-        after = self._state.with_misplaced(_solid_at(house, truth), truth.receptacle == FLOOR)
+        after = self._state.with_misplaced(_solid_at(self._house, truth), truth.receptacle == FLOOR)
         if after is None:
             return False
         self._state = after

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from adhoc.dataset.checks.box_arrays import BoxArrays, FloatArray, box_arrays
 from adhoc.dataset.oracle.stances import AIMS, HEADINGS, LEVEL, TILT_STEP, TILTS
+from adhoc.houses.box_rays import along_axes, crossing
 from adhoc.houses.solids import Box
 
 _FRAME = 0.98
@@ -20,6 +21,8 @@ _NEARER = 0.01
 _PATCH = 0.12
 """Metres between the points that are tried on a face, at most `_MOST_POINTS` along each edge."""
 _MOST_POINTS = 8
+_SHORT = 0.999
+"""Part of the way to a point that has to be free; a box that is only touched hides nothing."""
 _AXES = ((0, 1, 2), (1, 0, 2), (2, 0, 1))
 
 
@@ -148,22 +151,10 @@ def _is_clear(
     """Whether no box lies between the eye and the point at (dx, dy, dz) from it."""
     for box in range(centers.shape[0]):
         cosine, sine = headings[box, 0], headings[box, 1]
-        ox, oy, oz = point[0] - centers[box, 0], point[1] - centers[box, 1], height - centers[box, 2]
-        enter, leave = 0.0, 0.999
-        for axis in range(3):
-            if axis == 0:
-                start, way = cosine * ox + sine * oy, cosine * dx + sine * dy
-            elif axis == 1:
-                start, way = cosine * oy - sine * ox, cosine * dy - sine * dx
-            else:
-                start, way = oz, dz
-            half = halves[box, axis]
-            if abs(way) < 1e-12:
-                if abs(start) > half:
-                    enter = 2.0
-                continue
-            one, two = (-half - start) / way, (half - start) / way
-            enter, leave = max(enter, min(one, two)), min(leave, max(one, two))
+        eye = (point[0] - centers[box, 0], point[1] - centers[box, 1], height - centers[box, 2])
+        start, way = along_axes(eye, cosine, sine), along_axes((dx, dy, dz), cosine, sine)
+        x, y, z = halves[box, 0], halves[box, 1], halves[box, 2]
+        enter, leave = crossing(start, way, (-x, -y, -z), (x, y, z), _SHORT)
         if enter < leave:
             return False
     return True

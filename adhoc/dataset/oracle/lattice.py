@@ -7,8 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from adhoc.dataset.checks.free_cells import MOVES, FreeCells
+from adhoc.dataset.checks.free_cells import FreeCells
 from adhoc.houses.house import Room
+from adhoc.houses.lattice_parts import MOVES
 from adhoc.houses.solids import Solid
 
 Ints = NDArray[np.int32]
@@ -100,8 +101,8 @@ class Lattice:
         return number if number >= 0 and self._is_on_lattice(x, y) else None
 
     def moves(self, lying: Iterable[str]) -> Ints:
-        """(cells, 4) int32, the cell that each of `free_cells.MOVES` leads to, -1 where it is not free, while
-        the loose objects of those ids lie where they were."""
+        """(cells, 4) int32, the cell that each of `lattice_parts.MOVES` leads to, -1 where it is not free,
+        while the loose objects of those ids lie where they were."""
         key = frozenset(lying) & self.obstacles
         if key not in self._tables:
             free = self._free_moves

@@ -22,7 +22,7 @@ _ALIGNED = 1e-3
 
 
 class Deed(IntEnum):
-    """What a robot does in one step of a route. The first four are the moves of `free_cells.MOVES`."""
+    """What a robot does in one step of a route. The first four are the moves of `lattice_parts.MOVES`."""
 
     EAST = 0
     WEST = 1

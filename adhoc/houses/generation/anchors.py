@@ -105,7 +105,7 @@ def draw_anchor(polygon: Sequence[Corner], rectangle: Rectangle, generator: Gene
             ((x1, y0), (x1, y1), (1, 0)),
             ((x0, y1), (x1, y1), (0, 1)),
         )
-        if _lies_on_outline(polygon, start, end)
+        if lies_on_outline(polygon, start, end)
     ]
     if at_walls and generator.random() < EDGE_RATHER_THAN_MIDDLE:
         return at_walls[int(generator.integers(len(at_walls)))]
@@ -130,7 +130,7 @@ def _is_convex_corner(polygon: Sequence[Corner], point: Corner) -> bool:
     return sum(contains(polygon, corner) for corner in around) == 1
 
 
-def _lies_on_outline(polygon: Sequence[Corner], start: Corner, end: Corner) -> bool:
+def lies_on_outline(polygon: Sequence[Corner], start: Corner, end: Corner) -> bool:
     """Whether a line, parallel to an axis, lies on an edge of the room."""
     for first, second in edges(polygon):
         axis = 0 if first[1] == second[1] else 1

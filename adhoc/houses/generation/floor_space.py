@@ -14,6 +14,8 @@ from adhoc.houses.house import Corner
 
 FloatArray = NDArray[np.float64]
 
+_SAME = 1e-6
+
 
 class FloorSpace:
     """The floor of a room, of which rectangles are taken one after the other."""
@@ -38,6 +40,13 @@ class FloorSpace:
         ys = np.unique(np.clip(both[:, [1, 3]], low[1], high[1]))
         found: FloatArray = _rectangles(xs, ys, self._floor, taken)
         return found
+
+    def is_free(self, rectangle: Rectangle) -> bool:
+        """Whether all of a rectangle is floor of which nothing is taken."""
+        x0, y0, x1, y1 = rectangle
+        free = self.free_rectangles()
+        low, high = np.array((x0, y0)) + _SAME, np.array((x1, y1)) - _SAME
+        return bool(((free[:, :2] <= low) & (high <= free[:, 2:])).all(axis=1).any())
 
 
 @njit(cache=True)

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from adhoc.houses.facts_furniture import GroupFacts
 from adhoc.houses.floor_plan import Rectangle
 from adhoc.houses.generation.anchors import Anchor, draw_anchor
+from adhoc.houses.generation.bedside import bedside_places
 from adhoc.houses.generation.floor_space import FloorSpace
 from adhoc.houses.generation.furniture_choice import FurnitureChoice
 from adhoc.houses.generation.furniture_groups import Arrangement
@@ -111,8 +112,21 @@ class RoomFurnishing:
         turns = anchor.turns(arrangement.width, arrangement.depth, rectangle)
         if not turns:
             return False
+        if self._put_beside_bed(arrangement):
+            return True
         turn = turns[int(self._generator.integers(len(turns)))]
         return self._put(rectangle, anchor, arrangement, turn, group)
+
+    def _put_beside_bed(self, arrangement: Arrangement) -> bool:
+        """Put a side table up beside a bed; whether it is one and there is space."""
+        standing = [entry.piece for entry in self.placed]
+        places = bedside_places(arrangement, standing, self._polygon)
+        free = [place for place in places if self._space.is_free(place[0])]
+        for index in self._generator.permutation(len(free)).tolist():
+            rectangle, anchor, turn = free[index]
+            if self._put(rectangle, anchor, arrangement, turn, None):
+                return True
+        return False
 
     def _put(
         self,

@@ -8,6 +8,8 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from adhoc.houses.box_rays import along_axes, crossing
+
 FloatArray = NDArray[np.float64]
 
 EYE_HEIGHTS = (0.9, 1.6)
@@ -16,12 +18,12 @@ REACH = 1.35
 """Horizontal metres between a robot and what it sees; robots reach a little further."""
 STEEPEST = 0.35
 """Metres that a robot must be away for every metre that it looks up or down; cameras see 75 degrees down."""
-
-
 LEAST_PIXELS = 3.0
 """Pixels of a thing, summed over the pictures from all places, from which on it counts as seen."""
 PIXEL = 1 / 64
 """Size of a pixel of a picture of 128 pixels and 90 degrees, at a distance of one."""
+_SHORT = 0.999
+"""Part of the line to a face that has to be free; the thing itself is beyond."""
 
 
 def is_in_view(target: FloatArray, cells: FloatArray, boxes: FloatArray) -> bool:
@@ -70,26 +72,13 @@ def _seen(target: FloatArray, cells: FloatArray, boxes: FloatArray) -> bool:
 
 @njit(cache=True)
 def _free(ex: float, ey: float, ez: float, tx: float, ty: float, tz: float, boxes: FloatArray) -> bool:
-    """Whether no box cuts the line from an eye to a point."""
-    for k in range(len(boxes)):
-        low, high = 0.0, 0.999
-        cosine, sine = boxes[k, 6], boxes[k, 7]
-        for axis in range(3):
-            if axis == 0:
-                start, way = cosine * ex + sine * ey, cosine * (tx - ex) + sine * (ty - ey)
-            elif axis == 1:
-                start, way = cosine * ey - sine * ex, cosine * (ty - ey) - sine * (tx - ex)
-            else:
-                start, way = ez, tz - ez
-            if abs(way) < 1e-12:
-                if start < boxes[k, axis] or start > boxes[k, axis + 3]:
-                    low, high = 1.0, 0.0
-                    break
-                continue
-            first, second = (boxes[k, axis] - start) / way, (boxes[k, axis + 3] - start) / way
-            low, high = max(low, min(first, second)), min(high, max(first, second))
-            if low > high:
-                break
-        if low <= high:
+    """Whether no box cuts or touches the line from an eye to a point."""
+    for box in boxes:
+        cosine, sine = box[6], box[7]
+        start = along_axes((ex, ey, ez), cosine, sine)
+        way = along_axes((tx - ex, ty - ey, tz - ez), cosine, sine)
+        low, high = (box[0], box[1], box[2]), (box[3], box[4], box[5])
+        enter, leave = crossing(start, way, low, high, _SHORT)
+        if enter <= leave:
             return False
     return True

@@ -18,6 +18,7 @@ from adhoc.houses import floor_plan
 from adhoc.houses.build import WALL_THICKNESS
 from adhoc.houses.floor_plan import Rectangle
 from adhoc.houses.house import Room, Wall
+from adhoc.houses.lattice_parts import largest_part, steps_between
 from adhoc.houses.shell_solids import wall_solid
 
 GRID_SIZE = 0.25
@@ -68,8 +69,13 @@ class Walkways:
 
     def reached(self) -> NDArray[np.bool_]:
         """The largest connected part of the free cells, (columns, lines)."""
-        part: NDArray[np.bool_] = _largest_part(self._blocked, self._room)
-        return part
+        clear = self._blocked == 0
+        free = (self._room >= 0) & clear[::PARTS, ::PARTS]
+        between = range(1, PARTS)
+        east = np.logical_and.reduce([clear[part::PARTS, ::PARTS] for part in between])
+        north = np.logical_and.reduce([clear[::PARTS, part::PARTS] for part in between])
+        reached: NDArray[np.bool_] = largest_part(free, steps_between(free, east, north))
+        return reached
 
     def reached_by_room(self, rooms: int) -> NDArray[np.int64]:
         """How many cells of each room belong to the largest part."""
@@ -129,42 +135,6 @@ def _mark(
             dy = max(0.0, abs(cosine * (j - y) - sine * (i - x)) - half_y)
             if dx * dx + dy * dy < radius * radius:
                 blocked[i, j] += change
-
-
-@njit(cache=True)
-def _largest_part(blocked: NDArray[np.uint8], room: NDArray[np.int16]) -> NDArray[np.bool_]:
-    columns, lines = room.shape
-    label = np.zeros((columns, lines), dtype=np.int32)
-    front = np.empty((columns * lines, 2), dtype=np.int32)
-    best, best_size, current = 0, 0, 0
-    for a in range(columns):
-        for b in range(lines):
-            if label[a, b] or room[a, b] < 0 or blocked[a * PARTS, b * PARTS]:
-                continue
-            current += 1
-            label[a, b] = current
-            front[0, 0], front[0, 1] = a, b
-            size, done = 1, 0
-            while done < size:
-                i, j = front[done, 0], front[done, 1]
-                done += 1
-                for di, dj in ((1, 0), (-1, 0), (0, 1), (0, -1)):
-                    k, m = i + di, j + dj
-                    if k < 0 or m < 0 or k >= columns or m >= lines or label[k, m] or room[k, m] < 0:
-                        continue
-                    open_way = True
-                    for part in range(1, PARTS + 1):
-                        if blocked[i * PARTS + di * part, j * PARTS + dj * part]:
-                            open_way = False
-                            break
-                    if open_way:
-                        label[k, m] = current
-                        front[size, 0], front[size, 1] = k, m
-                        size += 1
-            if size > best_size:
-                best, best_size = current, size
-    largest: NDArray[np.bool_] = (label == best) & (label > 0)
-    return largest
 
 
 @njit(cache=True)

@@ -6,8 +6,9 @@ import pytest
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.dataset.oracle import ceiling
+from adhoc.evaluation.ranges import Ranges
 from adhoc.evaluation.referee import PlacementReferee
-from adhoc.evaluation.sampling import Ranges, sample_scenario
+from adhoc.evaluation.sampling import sample_scenario
 from adhoc.houses.samples import sample_house, sample_names
 from adhoc.worlds.pybullet_world import PyBulletWorld
 

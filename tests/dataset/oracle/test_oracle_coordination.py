@@ -14,7 +14,8 @@ from adhoc.dataset.oracle.knowledge import PYBULLET, HouseKnowledge
 from adhoc.dataset.oracle.lattice import Lattice
 from adhoc.dataset.oracle.plans import Plan, Planner
 from adhoc.dataset.oracle.stances import AIMS
-from adhoc.evaluation.sampling import Ranges, sample_scenario
+from adhoc.evaluation.ranges import Ranges
+from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import prepare
 from adhoc.houses.samples import sample_house
 from adhoc.worlds.pybullet_world import PyBulletWorld

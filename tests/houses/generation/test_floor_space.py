@@ -41,3 +41,12 @@ def test_many_lines_need_more_room_than_first_reserved():
     found = space.free_rectangles()
     assert len(found) > 2000
     assert len({tuple(row) for row in found.tolist()}) == len(found)
+
+
+def test_a_rectangle_is_free_on_several_parts_of_the_floor_but_not_beyond_nor_where_something_stands():
+    space = FloorSpace(L_SHAPE)
+    assert space.is_free((1.0, 0.0, 3.0, 2.0))
+    assert not space.is_free((1.0, 0.5, 3.0, 2.1))
+    space.take((0.0, 0.0, 1.0, 1.0))
+    assert space.is_free((1.0, 0.0, 3.0, 2.0))
+    assert not space.is_free((0.9, 0.0, 3.0, 2.0))
