@@ -5,7 +5,7 @@ PYTHON ?= $(shell for name in python3.11 python3.10 python3; do if $$name -c "" 
 BIN := .venv/bin
 export NUMBA_CACHE_DIR := $(CURDIR)/.venv/numba-cache
 
-.PHONY: demo test test-slow check format bench clean
+.PHONY: demo test test-slow stress check format bench clean
 
 demo: .venv/installed
 	$(BIN)/adhoc run -m policy=none,heuristic,irot join_step=0,50 benchmark=demo out=demo
@@ -16,6 +16,10 @@ test: .venv/installed-dev
 
 test-slow: .venv/installed-dev
 	$(BIN)/pytest -m slow
+
+# Kills runs and their workers some hundred times: about a quarter of an hour.
+stress: .venv/installed-dev
+	$(BIN)/pytest -m stress tests/stress
 
 check: .venv/installed-dev
 	$(BIN)/ruff check .
@@ -33,6 +37,8 @@ bench: .venv/installed-dev
 	$(BIN)/python benchmarks/speed.py $(HOUSE)
 	$(BIN)/python benchmarks/episode.py $(HOUSE)
 	$(BIN)/python benchmarks/dataset.py
+	$(BIN)/python benchmarks/ledger.py
+	$(BIN)/python benchmarks/workers.py
 
 .venv/bin/pip:
 	$(PYTHON) -m venv .venv

@@ -49,6 +49,7 @@ _HOMES = {
     "adhoc.llm.offline.reasoner": ("OfflineReasoner",),
     "adhoc.llm.scripted": ("ScriptedModel",),
     "adhoc.tasks.common_sense": ("CommonSense",),
+    "adhoc.tasks.llm_common_sense": ("LLMCommonSense",),
     "adhoc.tasks.placement": ("PlacementCommonSense", "placement_table"),
     "adhoc.tasks.task": ("Task",),
     "adhoc.tasks.tidying_up": ("TidyingUp",),

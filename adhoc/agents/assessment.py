@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from adhoc.agents.memory import News
+from adhoc.agents.news import News
 from adhoc.core.calls import Call
 from adhoc.core.plans import Assessment, Replan
 from adhoc.core.values import Observation

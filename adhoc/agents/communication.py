@@ -6,7 +6,6 @@ them: reading takes what is there.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,6 +13,13 @@ from typing import Any
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message, MessageKind, TeammateView
 from adhoc.core.values import Capability, ObjectRecord, Pose
+
+MAX_ENTRIES = 64
+"""Of a list that a stranger sends, objects or rooms, this many are taken."""
+MAX_ARGUMENTS = 8
+"""Of the arguments of a call likewise."""
+MAX_NUMBER = 1e6
+"""Larger numbers are not believed."""
 
 
 def state_payload(
@@ -110,18 +116,18 @@ def read_view(view: TeammateView, message: Message) -> TeammateView:
         if name in payload and isinstance(payload[name], (str, type(None))):
             changes[name] = payload[name]
     if isinstance(payload.get("capability"), Mapping):
-        changes["capability"] = _read_capability(payload["capability"], view.capability or Capability())
-    position = _read_numbers(payload.get("position"), 2)
+        changes["capability"] = read_capability(payload["capability"], view.capability or Capability())
+    position = read_numbers(payload.get("position"), 2)
     if position is not None:
         changes["position"] = position
     for name in ("sub_task", "sub_skill"):
         if name in payload:
             changes[name] = read_call(payload[name])
-    if isinstance(payload.get("steps_left"), int):
-        changes["steps_left"] = payload["steps_left"]
-    explored = read_explored_rooms(message)
-    if explored:
-        changes["explored_rooms"] = tuple(sorted({*view.explored_rooms, *explored}))
+    steps_left = read_numbers([payload.get("steps_left")], 1)
+    if steps_left is not None:
+        changes["steps_left"] = int(steps_left[0])
+    explored = {*view.explored_rooms, *read_explored_rooms(message)}
+    changes["explored_rooms"] = tuple(sorted(explored)[:MAX_ENTRIES])
     if isinstance(payload.get("stopped"), bool):
         changes["stopped"] = payload["stopped"]
     return replace(view, **changes)
@@ -134,13 +140,16 @@ def read_call(payload: Any) -> Call | None:
     arguments = payload.get("args", ())
     if not isinstance(arguments, Sequence) or isinstance(arguments, str):
         return None
-    return Call(payload["name"], tuple(it for it in arguments if isinstance(it, (str, int, float))))
+    plain = [it for it in arguments[:MAX_ARGUMENTS] if isinstance(it, str) or _is_number(it)]
+    return Call(payload["name"], tuple(plain))
 
 
 def read_explored_rooms(message: Message) -> list[str]:
     """The rooms that a message reports as explored."""
     rooms = message.payload.get("explored_rooms", ())
-    return [it for it in rooms if isinstance(it, str)] if isinstance(rooms, (list, tuple)) else []
+    if not isinstance(rooms, (list, tuple)):
+        return []
+    return [it for it in rooms[:MAX_ENTRIES] if isinstance(it, str)]
 
 
 def read_objects(message: Message) -> list[ObjectRecord]:
@@ -151,17 +160,18 @@ def read_objects(message: Message) -> list[ObjectRecord]:
     entries = message.payload.get("objects", ())
     if not isinstance(entries, (list, tuple)):
         return []
-    records = (_read_object(entry, message) for entry in entries if isinstance(entry, Mapping))
+    mappings = [entry for entry in entries[:MAX_ENTRIES] if isinstance(entry, Mapping)]
+    records = (_read_object(entry, message) for entry in mappings)
     return [record for record in records if record is not None]
 
 
 def _read_object(entry: Mapping[str, Any], message: Message) -> ObjectRecord | None:
     name, category = _text(entry, "id"), _text(entry, "category")
-    position = _read_numbers(entry.get("position"), 3)
+    position = read_numbers(entry.get("position"), 3)
     if name is None or category is None or position is None:
         return None
     misplaced = entry.get("misplaced")
-    mass = _read_numbers([entry.get("mass")], 1)
+    mass = read_numbers([entry.get("mass")], 1)
     return ObjectRecord(
         id=name,
         category=category,
@@ -178,19 +188,32 @@ def _read_object(entry: Mapping[str, Any], message: Message) -> ObjectRecord | N
     )
 
 
-def _read_capability(payload: Mapping[str, Any], known: Capability) -> Capability:
+def read_capability(payload: Mapping[str, Any], known: Capability) -> Capability:
     """The fields that have the right type; the others stay as known."""
-    kinds = {
-        name: (int, float) if isinstance(value, float) else type(value) for name, value in vars(known).items()
+    fields = {
+        name: payload[name]
+        for name, default in vars(Capability()).items()
+        if _is_alike(payload.get(name), default)
     }
-    fields = {name: payload[name] for name, kind in kinds.items() if isinstance(payload.get(name), kind)}
     return replace(known, **fields)
 
 
-def _read_numbers(value: Any, count: int) -> tuple[float, ...] | None:
+def _is_alike(value: Any, default: bool | int | float) -> bool:
+    if isinstance(default, bool):
+        return isinstance(value, bool)
+    return _is_number(value) and (isinstance(default, float) or isinstance(value, int))
+
+
+def _is_number(value: Any) -> bool:
+    """Whether it is a number that a house or a robot could have, in metres, kilograms or steps."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= MAX_NUMBER
+
+
+def read_numbers(value: Any, count: int) -> tuple[float, ...] | None:
+    """The first `count` numbers of a list, None if they are not all credible numbers."""
     if not isinstance(value, (list, tuple)) or len(value) < count:
         return None
-    numbers = [it for it in value[:count] if isinstance(it, (int, float)) and math.isfinite(it)]
+    numbers = [it for it in value[:count] if _is_number(it)]
     return tuple(float(it) for it in numbers) if len(numbers) == count else None
 
 

@@ -47,12 +47,17 @@ def build_context(
 
 
 def _shown(memory: Memory, observation: Observation, limit: int) -> Iterable[ObjectRecord]:
-    """Objects in the hand and in need first, then receptacles, then whatever else is in view."""
+    """Objects in the hand and in need first, then receptacles, then whatever else is in view.
+
+    Those in need have half of the places at most, and what the robot saw itself goes before what it was
+    told: teammates who make things up hide no receptacle and nothing that is there.
+    """
     position = (observation.pose.x, observation.pose.y)
+    in_need = sorted(memory.attention(), key=lambda record: record.source != "me")
     chosen: dict[str, ObjectRecord] = {}
     if memory.held is not None:
         chosen[memory.held.id] = memory.held
-    chosen.update((record.id, record) for record in memory.attention())
+    chosen.update((record.id, record) for record in in_need[: limit // 2])
     chosen.update((record.id, record) for record, _ in memory.places_near(position))
     for label in observation.labels.values():
         if len(chosen) >= limit:

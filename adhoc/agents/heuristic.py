@@ -10,7 +10,8 @@ from typing import Any
 from adhoc.agents import communication
 from adhoc.agents.assignment import Worker, assign
 from adhoc.agents.body import Body, SkillOutcome, SkillTable
-from adhoc.agents.memory import Memory, News
+from adhoc.agents.memory import Memory
+from adhoc.agents.news import News
 from adhoc.agents.policy import Ask, Policy, Turn
 from adhoc.agents.recipe import Recipe
 from adhoc.agents.roster import MemberState, Roster

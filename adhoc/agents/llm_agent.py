@@ -10,7 +10,8 @@ from adhoc.agents.assessment import assess_action, assess_news, assess_skill
 from adhoc.agents.body import Body, SkillOutcome, SkillTable
 from adhoc.agents.context import build_context
 from adhoc.agents.decision import decision_trace, skill_trace
-from adhoc.agents.memory import Memory, News, merge_news
+from adhoc.agents.memory import Memory
+from adhoc.agents.news import News, merge_news
 from adhoc.agents.policy import Ask, Policy, Turn
 from adhoc.agents.voice import Voice
 from adhoc.core.calls import Call
@@ -214,6 +215,7 @@ class LLMAgent(Policy):
         return _WAIT
 
     def _plan_sub_task(self) -> None:
+        self._exchanges()  # What was asked meanwhile, such as where things belong, is not of this decision.
         plan = self._planner.plan(self._context(), self._consult)
         self._trace["decision"] = decision_trace(plan, self._reason)
         self._trace["decision"]["exchanges"] = self._exchanges()
@@ -225,6 +227,7 @@ class LLMAgent(Policy):
     def _plan_sub_skill(self) -> bool:
         """Choose and begin the next sub-skill; False if the model gave none that this robot can do."""
         assert self._sub_task is not None
+        self._exchanges()
         try:
             call = self._sub_skill_planner.next_skill(self._context(), self._sub_task, self._last)
         except ReplyError as error:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from adhoc.agents import communication
+from adhoc.agents.hearsay import Hearsay
+from adhoc.agents.news import News
 from adhoc.core.geometry import planar_distance
 from adhoc.core.messages import Message, MessageKind, TeammateView
 from adhoc.core.plans import Event
@@ -16,36 +18,6 @@ from adhoc.perception.perception import Perception, PerceptionSettings, Sighting
 from adhoc.tasks.task import Task
 
 
-@dataclass(frozen=True)
-class News:
-    """What one step taught: ids of objects and rooms, in a fixed order."""
-
-    misplaced: tuple[str, ...] = ()
-    """Objects newly judged to need attention by this robot's own eyes."""
-    settled: tuple[str, ...] = ()
-    """Objects that needed attention and no longer do, or are gone from where they were."""
-    receptacles: tuple[str, ...] = ()
-    """Receptacles detected for the first time."""
-    explored: tuple[str, ...] = ()
-    """Rooms that this robot has finished exploring."""
-    stopped: tuple[str, ...] = ()
-    """Teammates that have stopped since the last step."""
-    told: tuple[str, ...] = ()
-    """Objects that need attention according to a teammate, unknown before."""
-    placed: tuple[str, ...] = ()
-    """The object that has just left the robot's hand."""
-
-
-def merge_news(*several: News) -> News:
-    """All that several pieces of news say, each thing once, in their order."""
-    return News(
-        **{
-            name: tuple(dict.fromkeys(it for news in several for it in getattr(news, name)))
-            for name in vars(News())
-        }
-    )
-
-
 class Memory:
     """Everything one robot knows, bounded in size so that a step costs the same at step 500 as at step 1.
 
@@ -53,7 +25,8 @@ class Memory:
         me: The robot's name.
         task: Judges which objects need attention.
         settings: Of the robot's perception.
-        messages_kept: How many received messages are kept; the earliest go first, as in the paper.
+        messages_kept: How many messages are kept, sent ones among them. The paper keeps all; once there are
+            more, the earliest fifth goes at once, so that those who read the latest see the same beginning.
         events_kept: How many of its own events are kept.
         looks: Frames in which an object must be judged to need attention before it does: the first glimpse
             of a half-seen shelf is often wrong.
@@ -65,7 +38,7 @@ class Memory:
         me: str,
         task: Task,
         settings: PerceptionSettings | None = None,
-        messages_kept: int = 40,
+        messages_kept: int = 1000,
         events_kept: int = 30,
         claims_kept: int = 150,
         looks: int = 2,
@@ -73,12 +46,14 @@ class Memory:
         self.me = me
         self.perception = Perception(settings or PerceptionSettings())
         self.teammates: dict[str, TeammateView] = {}
-        self.messages: deque[Message] = deque(maxlen=messages_kept)
+        self.messages: list[Message] = []
         self.events: deque[Event] = deque(maxlen=events_kept)
+        self._messages_kept = messages_kept
         self._claims_kept = claims_kept
         self._looks = looks
         self._suspected: Counter[str] = Counter()
         self._task = task
+        self._hearsay = Hearsay()
         self._needs: dict[str, bool] = {}
         self._records: dict[str, tuple[ObjectRecord, ObjectRecord]] = {}
         self._explored: set[str] = set()
@@ -94,7 +69,10 @@ class Memory:
         sighting = self.perception.observe(observation)
         settled = [gone for gone in sighting.gone if self._needs.pop(gone, False)]
         misplaced = []
-        for object_id in dict.fromkeys((*([placed] if placed else []), *self._to_judge(sighting))):
+        to_judge = dict.fromkeys((*([placed] if placed else []), *self._to_judge(sighting)))
+        known = self.perception.objects
+        self._task.anticipate([known[object_id] for object_id in to_judge if object_id in known])
+        for object_id in to_judge:
             before, after = self._needs.get(object_id), self._judge(object_id)
             if after and not before:
                 misplaced.append(object_id)
@@ -117,28 +95,26 @@ class Memory:
         for message in inbox:
             if message.kind is MessageKind.TEAM:
                 continue
-            self.messages.append(message)
+            self._keep(message)
             view = self.teammates.get(message.sender) or TeammateView(message.sender)
             updated = communication.read_view(view, message)
             self.teammates[message.sender] = updated
             if updated.stopped and not view.stopped:
                 stopped.append(message.sender)
-            for record in communication.read_objects(message):
+            for record in self._hearsay.objects(message):
                 before = self._needs.get(record.id, False)
                 self._tell(record)
                 if record.misplaced is not None and record.misplaced != before:
                     (told if record.misplaced else settled).append(record.id)
-            for room in communication.read_explored_rooms(message):
+            for room in self._hearsay.explored_rooms(message):
                 self.perception.tell_explored(room, message.sender)
         return News(settled=tuple(settled), stopped=tuple(stopped), told=tuple(told))
 
     def remember_sent(self, messages: Iterable[Message]) -> None:
         """Remember messages of this robot's own: the paper's M is all that it has sent and received."""
-        self.messages.extend(
-            replace(message, sender=self.me, step=self._step)
-            for message in messages
-            if message.kind is not MessageKind.TEAM
-        )
+        for message in messages:
+            if message.kind is not MessageKind.TEAM:
+                self._keep(replace(message, sender=self.me, step=self._step))
 
     def note(self, text: str) -> None:
         """Remember an event of this robot's own."""
@@ -226,6 +202,11 @@ class Memory:
     def explored_rooms(self) -> list[str]:
         """Ids of the rooms that are explored, by this robot or, as it was told, by others."""
         return sorted(room.id for room in self.perception.rooms.values() if room.explored)
+
+    def _keep(self, message: Message) -> None:
+        if len(self.messages) >= self._messages_kept:
+            del self.messages[: max(1, self._messages_kept // 5)]
+        self.messages.append(message)
 
     def _grasp(self, observation: Observation) -> str | None:
         """Keep track of the hand: what is held is nowhere else, what was put down is where it was put.

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from adhoc.agents.assignment import Worker
+from adhoc.agents.communication import read_capability, read_numbers
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Capability
 
@@ -78,10 +79,26 @@ class Roster:
 
 def _read(message: Message) -> MemberState | None:
     """The state that `MemberState.message` wrote; None for a stranger's noise of the same kind."""
-    payload, fields = message.payload, MemberState.__dataclass_fields__
-    capability = payload.get("capability")
-    if payload.keys() != fields.keys() or not isinstance(capability, Mapping):
+    payload = message.payload
+    position, capability = read_numbers(payload.get("position"), 2), payload.get("capability")
+    busy, idle, stopped = payload.get("busy"), payload.get("idle"), payload.get("stopped")
+    unable, gone, covered = (_list(payload.get(field)) for field in ("unable", "gone", "covered"))
+    if payload.keys() != MemberState.__dataclass_fields__.keys() or position is None:
         return None
-    if capability.keys() != Capability.__dataclass_fields__.keys():
+    if not isinstance(capability, Mapping) or not isinstance(busy, (str, type(None))):
         return None
-    return MemberState(**{**payload, "capability": Capability(**capability), "name": message.sender})
+    return MemberState(
+        message.sender,
+        (position[0], position[1]),
+        read_capability(capability, Capability()),
+        busy,
+        idle is True,
+        stopped is True,
+        tuple(it for it in unable if isinstance(it, str)),
+        tuple(it for it in gone if isinstance(it, str)),
+        tuple((int(cell[0]), int(cell[1])) for it in covered if (cell := read_numbers(it, 2)) is not None),
+    )
+
+
+def _list(value: Any) -> Sequence[Any]:
+    return value if isinstance(value, (list, tuple)) else ()

@@ -7,7 +7,8 @@ from itertools import islice
 from typing import Any
 
 from adhoc.agents import communication
-from adhoc.agents.memory import Memory, News
+from adhoc.agents.memory import Memory
+from adhoc.agents.news import News
 from adhoc.agents.policy import Ask
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message, MessageKind

@@ -11,16 +11,14 @@ from omegaconf.errors import MissingMandatoryValue
 
 from adhoc.agents.policy import Policy
 from adhoc.cli.build import Offer, build, is_component
+from adhoc.cli.model_chain import OuterModel, hashed_settings, outer_model, provider_model
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.benchmark import Benchmark
 from adhoc.evaluation.contender import NO_AD_HOC, Conditions, Contender
-from adhoc.evaluation.exchanges import TranscribingModel
 from adhoc.evaluation.metrics import FailedShare
-from adhoc.llm.counting import CountingModel
 from adhoc.llm.model import LanguageModel
-from adhoc.llm.retrying import RetryingModel
+from adhoc.llm.team_model import TeamModel
 from adhoc.planning.interfaces import Evaluator, Planner, Reflector, SubSkillPlanner, SubTaskGenerator
-from adhoc.tasks.placement import placement_table
 from adhoc.tasks.task import Task
 from adhoc.worlds.world import World
 
@@ -34,8 +32,7 @@ STAGES: Mapping[str, type] = {
     "sub_skill_planner": SubSkillPlanner,
 }
 """What the stages of the paper must be; stages of other names may be anything."""
-LLM_OFFERS: Mapping[str, Offer] = {"places": placement_table}
-"""What language models that are none may ask for: general knowledge of where things belong."""
+TEAM = "team"
 
 
 class Components:
@@ -43,11 +40,16 @@ class Components:
 
     The language model is built once, and only if a policy asks for it. Raises ConfigurationError, or
     whatever the components raise.
+
+    Args:
+        config: The composed configuration.
+        provider: What answers the questions of all episodes, if it is not to be built here (see
+            `cli.model_chain.provider_model`): a worker's way to the one that its parent owns.
     """
 
-    def __init__(self, config: DictConfig) -> None:
-        self._config = config
-        self._asked_for_model = False
+    def __init__(self, config: DictConfig, provider: LanguageModel | None = None) -> None:
+        self._config, self._given_provider = config, provider
+        self._asked_for_model = self._task_asked_for_model = False
 
     @cached_property
     def world(self) -> World:
@@ -64,13 +66,18 @@ class Components:
     @cached_property
     def conditions(self) -> Conditions:
         """Task, team and limits."""
+        task, model = self._task, None
         settings = {"task": self._plain("task"), "world": self._plain("world")}
+        if self._task_asked_for_model:
+            settings["task"].update(hashed_settings(self._config, self._plain("llm")))
+            model = self._model.counting
         return Conditions(
-            self._task,
-            self._contender("team"),
+            task,
+            self._contender(TEAM),
             self._config.max_steps,
             failed_share=self._failed_share,
             settings=settings,
+            model=model,
         )
 
     @cached_property
@@ -87,7 +94,8 @@ class Components:
         self._make_policy(group, config)
         settings, model = config, None
         if self._asked_for_model:
-            settings, model = {**config, "llm": self._plain("llm")}, self._model
+            settings = {**config, **hashed_settings(self._config, self._plain("llm"))}
+            model = self._model.counting
         return Contender(
             config["name"], config["label"], lambda: self._make_policy(group, config), settings, model
         )
@@ -95,9 +103,10 @@ class Components:
     def _make_policy(self, group: str, config: Mapping[str, Any]) -> Policy:
         """A fresh policy with fresh stages; they share the model alone."""
         offers: dict[str, Offer] = {
-            "model": self._offer_model,
-            "exchanges": lambda: self._transcriber.take,
+            "model": lambda: self._offer_model(group),
+            "exchanges": lambda: self._model.transcriber.take,
             "legal": lambda: self._task.legal,
+            "legal_skill": lambda: self._task.legal_skill,
         }
         for name, stage in config.items():
             if name != AGENT and is_component(stage):
@@ -117,27 +126,31 @@ class Components:
 
     @cached_property
     def _task(self) -> Task:
-        task: Task = self._component("task", Task)
+        task: Task = self._component("task", Task, {"model": self._offer_model_to_task})
         return task
 
-    def _offer_model(self) -> LanguageModel:
+    @cached_property
+    def provider(self) -> LanguageModel:
+        """What answers the questions of all episodes."""
+        return self._given_provider or provider_model(self._config, self._plain("llm"))
+
+    def _offer_model_to_task(self) -> LanguageModel:
+        self._task_asked_for_model = True
+        return self._model.counting
+
+    def _offer_model(self, group: str) -> LanguageModel:
         self._asked_for_model = True
-        return self._model
+        model = self._model.counting
+        return TeamModel(model) if group == TEAM else model
 
     @cached_property
-    def _transcriber(self) -> TranscribingModel:
-        config = self._plain("llm")
-        settings = {name: value for name, value in config.items() if name != "name"}
-        return TranscribingModel(RetryingModel(build(settings, "llm", LLM_OFFERS, LanguageModel)))
+    def _model(self) -> OuterModel:
+        return outer_model(self._config, self._plain("llm"), self.provider)
 
-    @cached_property
-    def _model(self) -> CountingModel:
-        return CountingModel(self._transcriber)
-
-    def _component(self, group: str, kind: type) -> Any:
+    def _component(self, group: str, kind: type, offers: Mapping[str, Offer] | None = None) -> Any:
         config = self._plain(group)
         settings = {name: value for name, value in config.items() if name != "name"}
-        return build(settings, group, kind=kind)
+        return build(settings, group, offers, kind)
 
     def _plain(self, group: str) -> dict[str, Any]:
         """One group as plain values."""

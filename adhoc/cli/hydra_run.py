@@ -7,6 +7,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import hydra
 from hydra.core.hydra_config import HydraConfig
@@ -14,16 +15,19 @@ from hydra.errors import HydraException
 from omegaconf import DictConfig
 from omegaconf.errors import OmegaConfBaseException
 
-from adhoc.cli.artifacts import artifacts_for
+from adhoc.cli.comparing import run_by_workers, run_here
 from adhoc.cli.config_errors import one_line
-from adhoc.cli.contestants import Components
+from adhoc.cli.dry_run import dry_run
+from adhoc.cli.model_chain import check_values
 from adhoc.cli.replaced import drop_foreign_settings
 from adhoc.cli.schema import register_schema
+from adhoc.cli.table_console import table_console
 from adhoc.core.errors import AdhocError, ConfigurationError
 from adhoc.core.resources import data_dir
+from adhoc.evaluation.cost_table import cost_table
 from adhoc.evaluation.folder import RunFolder
+from adhoc.evaluation.folder_lock import locked
 from adhoc.evaluation.progress import ConsoleProgress
-from adhoc.evaluation.run import RunSummary, run_comparison
 
 SWEEP = ("-m", "--multirun")
 
@@ -49,7 +53,7 @@ def run_with_hydra(arguments: Sequence[str]) -> None:
             raise SystemExit(2) from error
 
     decorated = hydra.main(version_base="1.3", config_path=str(data_dir("configs")), config_name="run")(job)
-    with _hydra_arguments(arguments):
+    with _elsewhere(arguments) as elsewhere, _hydra_arguments([*arguments, *elsewhere]):
         try:
             decorated()
         except SystemExit:
@@ -67,29 +71,34 @@ def run_with_hydra(arguments: Sequence[str]) -> None:
         raise failures[0]
 
 
-def run_config(config: DictConfig) -> RunSummary:
-    """Run one composed configuration."""
+def run_config(config: DictConfig) -> None:
+    """Run one composed configuration, or estimate what it would ask of a model."""
     _check_numbers(config)
+    if config.dry_run:
+        dry_run(config)
+        return
     _check_out(config.out)
-    folder = RunFolder(config.out)
-    components = Components(config)
-    conditions, newcomer = components.conditions, components.newcomer
-    world = components.world
-    try:
-        scenarios = components.benchmark.scenarios(world, config.seed, config.limit)
-        with ConsoleProgress() as progress:
-            return run_comparison(
-                world,
-                scenarios,
-                conditions,
-                newcomer,
-                config.join_step,
-                folder,
-                progress,
-                artifacts_for(Path(config.out), config.pictures, config.transcript),
-            )
-    finally:
-        world.close()
+    run = run_here if config.workers == 1 else run_by_workers
+    with locked(config.out):
+        folder = RunFolder(config.out)
+        try:
+            with ConsoleProgress() as progress:
+                run(config, folder, progress)
+        finally:
+            _print_costs(config, folder)
+
+
+def _print_costs(config: DictConfig, folder: RunFolder) -> None:
+    """What the episodes of this configuration cost, also those that were recorded before."""
+    mine = [
+        record
+        for record in folder.records
+        if record["join_step"] is None
+        or (record["policy"], record["join_step"]) == (config.policy.name, config.join_step)
+    ]
+    table = cost_table(mine)
+    if table is not None:
+        table_console().print(table)
 
 
 def _make_importable(folder: Path) -> None:
@@ -107,6 +116,9 @@ def _check_numbers(config: DictConfig) -> None:
         )
     if config.limit is not None and config.limit < 1:
         raise ConfigurationError(f"limit={config.limit}: must be at least 1")
+    if config.workers < 1:
+        raise ConfigurationError(f"workers={config.workers}: must be at least 1")
+    check_values(config)
 
 
 def _check_out(out: str) -> None:
@@ -125,6 +137,16 @@ def _no_folder(out: str | None, error: OSError) -> str:
     return (
         f"out={out or ''}: no run folder can be made there ({error.strerror or error}); name another folder"
     )
+
+
+@contextmanager
+def _elsewhere(arguments: Sequence[str]) -> Iterator[list[str]]:
+    """Overrides that keep Hydra, which makes folders by itself, from making the run folder for a dry run."""
+    if not any(it.startswith("dry_run=") and it.lower() != "dry_run=false" for it in arguments):
+        yield []
+        return
+    with TemporaryDirectory(prefix="adhoc-") as folder:
+        yield [f"hydra.run.dir='{folder}'", f"hydra.sweep.dir='{folder}'"]
 
 
 @contextmanager

@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TextIO
 
 from adhoc import __version__
-from adhoc.core.errors import AdhocError
+from adhoc.core.errors import AdhocError, BudgetReached
 
 COMMANDS = {
     "run": (
@@ -20,16 +20,19 @@ COMMANDS = {
     "report": ("adhoc.cli.report", "print the paper's table from the records of runs"),
     "house": ("adhoc.cli.house", "describe a ProcTHOR house file, and draw it"),
     "dataset": ("adhoc.cli.dataset", "make, check and show datasets of houses and tasks"),
+    "ledger": ("adhoc.cli.ledger", "show, check, merge and redact recorded calls of language models"),
 }
 """Modules are imported only when their command is used; each has `main(arguments) -> exit code`."""
 
 USAGE_ERROR = 2
+OUT_OF_BUDGET = 3
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `adhoc` with these arguments (of the process by default); returns the exit code.
 
-    0 is success, 2 an error of the user's input (one line on stderr), 130 an interruption.
+    0 is success, 2 an error of the user's input (one line on stderr), 3 a run that stopped at a cap of its
+    budget (the same), 130 an interruption.
     """
     command, rest = _parse(sys.argv[1:] if arguments is None else list(arguments))
     run: Callable[[Sequence[str]], int] = import_module(COMMANDS[command][0]).main
@@ -37,6 +40,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         warnings.showwarning = _show_warning
         try:
             return run(rest)
+        except BudgetReached as reached:
+            sys.stderr.write(
+                f"adhoc {command}: stopped: {reached}; the same command with a larger cap goes on where it "
+                "stopped\n"
+            )
+            return OUT_OF_BUDGET
         except AdhocError as error:
             sys.stderr.write(f"adhoc {command}: error: {error}\n")
             return USAGE_ERROR

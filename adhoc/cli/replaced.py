@@ -10,7 +10,7 @@ from omegaconf import DictConfig, OmegaConf, open_dict
 from adhoc.cli.build import TARGET, locate, parameters_of
 from adhoc.core.errors import ConfigurationError
 
-KEPT = (TARGET, "name")
+KEPT = (TARGET, "name", "price")
 
 
 def drop_foreign_settings(config: DictConfig, overrides: Sequence[str]) -> None:

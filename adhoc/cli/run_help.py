@@ -25,13 +25,17 @@ values:
   limit=N          only the first N scenarios
   max_steps=500    the step limit of an episode
   failed_share=from_joining  what a failure counts for the newcomer in #AS: from_joining, or full
+  dry_run=true     estimate calls, tokens and cost from a few episodes; ask no model and record nothing
+  budget.run.usd=5 stop before more is spent in this run folder; also calls, tokens, and budget.episode
+  ledger.mode=replay ledger.path=DIR  take every answer from the ledger of another run
+  workers=1        processes that run episodes; they share one model, one ledger and one limit on calls
   pictures=true    draw every episode from above
   transcript=true  write one decision of every episode as a page to read
 
 choices:
 {choices}
-stages of a policy, e.g. policy/evaluator=keep_order:
-{stages}
+parts of a choice, e.g. policy/evaluator=keep_order:
+{parts}
 The settings in the files are keys: world.image_size=64, policy.generator.n=5; any other parameter of a
 component's class takes a plus: +world.robot_radius=0.3. Hydra's own options (--cfg job shows every key,
 --config-dir DIR is for files of your own) work as usual.
@@ -41,10 +45,10 @@ component's class takes a plus: +world.robot_radius=0.3. Hydra's own options (--
 def help_text() -> str:
     """The help, with the configuration files that are in force."""
     root = data_dir("configs")
-    stages = sorted(folder for folder in (root / "policy").iterdir() if folder.is_dir())
+    parts = sorted(folder for group in GROUPS for folder in (root / group).iterdir() if folder.is_dir())
     return USAGE.format(
         choices="".join(_line(group, root / group) for group in GROUPS),
-        stages="".join(_line(f"policy/{folder.name}", folder) for folder in stages),
+        parts="".join(_line(str(folder.relative_to(root)), folder) for folder in parts),
     )
 
 

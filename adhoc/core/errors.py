@@ -46,6 +46,10 @@ class EpisodeError(AdhocError):
     asked a question outside its turn or said something that is no message."""
 
 
+class WorkerError(AdhocError):
+    """A worker process of a run ended by itself, or was killed again and again in one episode."""
+
+
 class PromptError(AdhocError):
     """A prompt template is missing, invalid, or refers to something that is not provided."""
 
@@ -55,19 +59,43 @@ class ModelError(AdhocError):
 
 
 class ModelBusy(ModelError):
-    """A language model cannot be used right now: rate limit, server fault, time-out. Later may work."""
+    """A language model cannot be used right now: rate limit, server fault, time-out. Later may work.
+
+    `retry_after` is after how many seconds, if the provider said so; `rate_limited` whether it asked for
+    fewer requests.
+    """
+
+    def __init__(self, message: str, retry_after: float | None = None, rate_limited: bool = False) -> None:
+        super().__init__(message)
+        self.retry_after, self.rate_limited = retry_after, rate_limited
+
+
+class BudgetReached(AdhocError):
+    """A call was not made because it could pass a cap on calls, tokens or money.
+
+    `scope` is `episode` or `run`; `cap` is the cap's place in the configuration, e.g. `budget.run.usd`.
+    """
+
+    def __init__(self, message: str, scope: str = "episode", cap: str = "") -> None:
+        super().__init__(message)
+        self.scope, self.cap = scope, cap
+
+
+class LedgerError(AdhocError):
+    """A ledger of model calls is damaged, foreign or of another version, or lacks a call to be replayed."""
 
 
 class ReplyError(AdhocError):
     """A language model answered, but not with what was asked for: ask again, or fall back.
 
-    `outcome` is a short stable name that records count: `empty`, `truncated`, `unreadable`,
-    `illegal`.
+    `outcome` is a short stable name that records count: `empty`, `truncated`, `unreadable`, `illegal`,
+    `duplicate`, `unknown id` (see `core.replies`). `response` is the answer as far as there was one (an
+    `llm.model.LMResponse`): it was paid for.
     """
 
-    def __init__(self, message: str, outcome: str = "unreadable") -> None:
+    def __init__(self, message: str, outcome: str = "unreadable", response: object = None) -> None:
         super().__init__(message)
-        self.outcome = outcome
+        self.outcome, self.response = outcome, response
 
 
 class MissingDependency(AdhocError):

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import derive_seed
+from adhoc.evaluation.lazy_scenarios import LazyScenarios
 from adhoc.evaluation.ranges import Ranges
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Scenario
@@ -54,9 +55,9 @@ class SampleBenchmark(Benchmark):
     def __init__(self, draws: Sequence[Draw | dict[str, object]]) -> None:
         self._draws = [draw if isinstance(draw, Draw) else _to_draw(draw) for draw in draws]
 
-    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
-        """See `Benchmark`."""
-        return [_sample(world, sample_house(draw.house), draw, seed) for draw in self._draws[:limit]]
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> Sequence[Scenario]:
+        """See `Benchmark`. Every scenario is drawn when it is accessed."""
+        return _drawn_later(world, sample_house, self._draws[:limit], seed)
 
 
 class HouseBenchmark(Benchmark):
@@ -83,21 +84,30 @@ class HouseBenchmark(Benchmark):
         self._path, self._index, self._count = Path(path), index, count
         self._misplaced, self._teammates = misplaced, teammates
 
-    def scenarios(self, world: World, seed: int, limit: int | None = None) -> list[Scenario]:
-        """See `Benchmark`. Raises HouseError if the file cannot be read."""
+    def scenarios(self, world: World, seed: int, limit: int | None = None) -> Sequence[Scenario]:
+        """See `Benchmark`. Every scenario is drawn when it is accessed. Raises HouseError at once if the file
+        cannot be read."""
         house = read_house(self._path, self._index)
         count = self._count if limit is None else min(limit, self._count)
         draws = [Draw(house.id, number, self._misplaced, self._teammates) for number in range(count)]
-        return [_sample(world, house, draw, seed) for draw in draws]
+        return _drawn_later(world, lambda _: house, draws, seed)
 
 
-def _sample(world: World, house: House, draw: Draw, run_seed: int) -> Scenario:
-    """The scenario of a draw under a run's seed. Under 0 it is that of the draw's own seed; its id names
+def _drawn_later(
+    world: World, house_of: Callable[[str], House], draws: Sequence[Draw], run_seed: int
+) -> LazyScenarios:
+    """The scenarios of draws under a run's seed. Under 0 they are those of the draws' own seeds; the ids name
     both seeds else, as in `corridor-s0-r7`."""
-    seed, name = draw.seed, f"{draw.house}-s{draw.seed}"
-    if run_seed:
-        seed, name = derive_seed(run_seed, "draw", draw.seed), f"{name}-r{run_seed}"
-    return sample_scenario(world, house, seed, draw.misplaced, draw.teammates, Ranges(), name)
+    suffix = f"-r{run_seed}" if run_seed else ""
+    ids = [f"{draw.house}-s{draw.seed}{suffix}" for draw in draws]
+
+    def load(position: int) -> Scenario:
+        draw = draws[position]
+        seed = derive_seed(run_seed, "draw", draw.seed) if run_seed else draw.seed
+        house = house_of(draw.house)
+        return sample_scenario(world, house, seed, draw.misplaced, draw.teammates, Ranges(), ids[position])
+
+    return LazyScenarios(ids, load)
 
 
 def _to_draw(fields: dict[str, object]) -> Draw:

@@ -53,6 +53,8 @@ class Conditions:
     """What a failure counts for the newcomer's action steps."""
     settings: Mapping[str, Any] = field(default_factory=dict)
     """Of the task and the world, as JSON values."""
+    model: CountingModel | None = None
+    """The language model that the task asks by itself, None if it asks none."""
 
 
 @dataclass(frozen=True)
@@ -90,15 +92,29 @@ class EpisodeKey:
         return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     @property
+    def scenario_id(self) -> str:
+        """The id of the scenario."""
+        return self.scenario.id
+
+    @property
+    def scenario_hash(self) -> str:
+        """A hash of what the scenario is."""
+        return self.scenario.content_hash()
+
+    @property
     def policy(self) -> str:
         """The name of the ad hoc policy, `none` for the team alone."""
         return NO_AD_HOC if self.newcomer is None else self.newcomer.name
 
     @property
     def model(self) -> str | None:
-        """The newcomer's model, else the team's."""
-        own = None if self.newcomer is None else self.newcomer.model_name
-        return own or self.conditions.team.model_name
+        """The newcomer's model, else the team's, else the one that the task asks."""
+        models = (
+            None if self.newcomer is None else self.newcomer.model,
+            self.conditions.team.model,
+            self.conditions.model,
+        )
+        return next((model.name for model in models if model is not None), None)
 
     @property
     def group(self) -> tuple[str, str, str | None]:

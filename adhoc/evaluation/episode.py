@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from adhoc.agents.policy import Policy
-from adhoc.core.errors import ConfigurationError
+from adhoc.core.errors import BudgetReached, ConfigurationError
 from adhoc.core.values import Action, Observation, Pose
 from adhoc.evaluation.channel import Channel
 from adhoc.evaluation.history import History, check_shared_past
@@ -25,6 +25,9 @@ class Ending(str, Enum):
     REPLACED = "all misplaced objects re-placed"
     STOPPED = "all robots stopped or out of battery"
     MAX_STEPS = "step limit reached"
+    BUDGET = "budget reached"
+    """A robot's question to a language model could have passed a cap. Such an episode failed, however far it
+    came, if the cap is one of the episode; it is unfinished if the cap is the run's."""
 
 
 @dataclass(frozen=True)
@@ -55,6 +58,8 @@ class EpisodeResult:
     history: tuple[str, ...]
     """One hash a step, see `evaluation.history`."""
     trace: Trace
+    budget: BudgetReached | None = None
+    """The cap that ended it, for `Ending.BUDGET`."""
 
     @property
     def success(self) -> bool:
@@ -82,7 +87,8 @@ def run_episode(
 
     The teammates act in the order of `scenario.team`, the newcomer after them. It enters before the
     robots look at step `join_step`. The episode ends when the referee sees every misplaced object in a
-    right place, when every robot present has stopped or is out of battery, or after `max_steps` steps.
+    right place, when every robot present has stopped or is out of battery, after `max_steps` steps, or in
+    the step in which a robot asks a language model more than a budget allows.
 
     Args:
         world: Any world; it is reset.
@@ -107,6 +113,7 @@ def run_episode(
         )
     if newcomer is not None and not 0 <= join_step < max_steps:
         raise ConfigurationError(f"join_step={join_step}: must be at least 0 and below max_steps={max_steps}")
+    task.begin_episode()
     episode = _Episode(world, scenario, task, referee, max_steps)
     episode.set_up(team)
     ending = episode.ending()
@@ -115,7 +122,10 @@ def run_episode(
             if alone is not None:
                 check_shared_past(episode.history.links, alone, f"scenario {scenario.id!r}")
             episode.let_join(newcomer)
-        episode.advance()
+        try:
+            episode.advance()
+        except BudgetReached as reached:
+            episode.budget = reached
         ending = episode.ending()
     if newcomer is not None and not episode.joined and alone is not None:
         check_shared_past(episode.history.links, alone, f"scenario {scenario.id!r}")
@@ -131,6 +141,7 @@ class _Episode:
         self.step = 0
         self.joined_at: Pose | None = None
         self.trace = Trace()
+        self.budget: BudgetReached | None = None
         self._world = world
         self._scenario = scenario
         self._task = task
@@ -181,6 +192,8 @@ class _Episode:
         self._note_changes(actions)
 
     def ending(self) -> Ending | None:
+        if self.budget is not None:
+            return Ending.BUDGET
         if len(self._replaced) == len(self._referee.watched):
             return Ending.REPLACED
         if len(self._finished) == len(self._policies):
@@ -206,6 +219,7 @@ class _Episode:
             undeliverable=self._channel.undeliverable,
             history=tuple(self.history.links),
             trace=self.trace,
+            budget=self.budget,
         )
 
     def _introduce(self, member: Member, policy: Policy) -> None:

@@ -3,25 +3,22 @@
 from __future__ import annotations
 
 from collections import deque
+from itertools import groupby
 from typing import Any
 
 from adhoc.core.errors import ReplyError
-from adhoc.llm.model import LanguageModel, LMRequest, LMResponse
+from adhoc.llm.model import LanguageModel, LMRequest, LMResponse, Wrapper
 
 MAX_EXCHANGES = 64
 
 
-class TranscribingModel(LanguageModel):
+class TranscribingModel(Wrapper):
     """A language model that is otherwise `inner`, and remembers the latest exchanges."""
 
     def __init__(self, inner: LanguageModel) -> None:
-        self._inner = inner
-        self._exchanges: deque[dict[str, Any]] = deque(maxlen=MAX_EXCHANGES)
-
-    @property
-    def name(self) -> str:
-        """The inner model's name."""
-        return self._inner.name
+        super().__init__(inner)
+        self._exchanges: deque[tuple[int, dict[str, Any]]] = deque(maxlen=MAX_EXCHANGES)
+        """With the number of the sample."""
 
     def complete(self, request: LMRequest) -> LMResponse:
         """See `LanguageModel`."""
@@ -33,21 +30,16 @@ class TranscribingModel(LanguageModel):
         self._note(request, response.text)
         return response
 
-    def note_invalid(self, stage: str, outcome: str) -> None:
-        """See `LanguageModel`."""
-        self._inner.note_invalid(stage, outcome)
-
-    def note_repaired(self, stage: str) -> None:
-        """See `LanguageModel`."""
-        self._inner.note_repaired(stage)
-
     def take(self) -> list[dict[str, Any]]:
         """The exchanges since the last call, as `{stage, prompt: [{role, content}], reply}`; the latest
-        64 at most."""
-        taken = list(self._exchanges)
+        64 at most. Samples of one question, which are asked for together, are in their own order."""
+        taken = []
+        for _, together in groupby(self._exchanges, key=lambda entry: entry[1]["stage"]):
+            taken += [exchange for _, exchange in sorted(together, key=lambda entry: entry[0])]
         self._exchanges.clear()
         return taken
 
     def _note(self, request: LMRequest, reply: str) -> None:
         prompt = [{"role": message.role, "content": message.content} for message in request.messages]
-        self._exchanges.append({"stage": request.stage, "prompt": prompt, "reply": reply})
+        exchange = {"stage": request.stage, "prompt": prompt, "reply": reply}
+        self._exchanges.append((request.sample, exchange))

@@ -5,11 +5,51 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from adhoc.core.errors import RecordError
-from adhoc.evaluation.contender import EpisodeKey
-from adhoc.evaluation.records import Record, RecordFile
+from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile, writing
+
+
+class FolderKey(Protocol):
+    """What a run folder knows an episode by; see `contender.EpisodeKey`, which is one."""
+
+    @property
+    def id(self) -> str:
+        """Unique in a run folder."""
+
+    @property
+    def group(self) -> tuple[str, str, str | None]:
+        """Names of team, policy and model."""
+
+    @property
+    def settings(self) -> Mapping[str, Any]:
+        """Everything but the scenario and the joining step that decides what is recorded."""
+
+    @property
+    def config_hash(self) -> str:
+        """A hash of `settings`."""
+
+    @property
+    def scenario_id(self) -> str:
+        """The id of the scenario."""
+
+    @property
+    def scenario_hash(self) -> str:
+        """A hash of what the scenario is."""
+
+
+class EpisodeStore(Protocol):
+    """Where records are and go: a `RunFolder`, or what stands for one in another process."""
+
+    def find(self, key: FolderKey) -> Record | None:
+        """See `RunFolder`."""
+
+    def add(self, key: FolderKey, record: Record) -> None:
+        """See `RunFolder`."""
+
+    def add_unfinished(self, key: FolderKey, record: Record) -> None:
+        """See `RunFolder`."""
 
 
 class RunFolder:
@@ -23,45 +63,65 @@ class RunFolder:
         self.path = Path(folder)
         self._file = RecordFile(folder)
         self._records = {str(record["episode_id"]): record for record in self._file.read()}
+        self._unfinished_file = RecordFile(folder, UNFINISHED_NAME)
+        self._unfinished = {
+            str(record["episode_id"]): record
+            for record in self._unfinished_file.read()
+            if record["episode_id"] not in self._records
+        }
         self._hashes = {_group(record): str(record["config_hash"]) for record in self._records.values()}
 
-    def find(self, key: EpisodeKey) -> Record | None:
+    @property
+    def records(self) -> list[Record]:
+        """Those of all finished episodes, in the order in which they were finished."""
+        return list(self._records.values())
+
+    def find(self, key: FolderKey) -> Record | None:
         """The record of an episode that was run before, or None.
 
         Raises RecordError if the folder belongs to another configuration or to other scenarios.
         """
-        recorded = self._hashes.get(key.group, key.config_hash)
+        record = self._records.get(key.id)
+        group_hash = self._hashes.get(key.group, key.config_hash)
+        recorded = group_hash if record is None else str(record["config_hash"])
         if recorded != key.config_hash:
             raise RecordError(
                 f"{self._file.path}: was made with another configuration of team={key.group[0]} "
                 f"policy={key.group[1]} ({self._differences(recorded, key)}); "
                 "use another folder (out=...) or the old configuration"
             )
-        record = self._records.get(key.id)
-        if record is not None and record["scenario_hash"] != key.scenario.content_hash():
+        if record is not None and record["scenario_hash"] != key.scenario_hash:
             raise RecordError(
                 f"{self._file.path}: episode {key.id!r} was run in another version of scenario "
-                f"{key.scenario.id!r} (house, objects or robots differ); use another folder (out=...)"
+                f"{key.scenario_id!r} (house, objects or robots differ); use another folder (out=...)"
             )
         return record
 
-    def add(self, key: EpisodeKey, record: Record) -> None:
+    def add(self, key: FolderKey, record: Record) -> None:
         """Store the record of an episode, and the settings behind its `config_hash`."""
         self._keep_settings(key)
         self._file.append(record)
         self._records[key.id] = record
         self._hashes[key.group] = key.config_hash
+        if self._unfinished.pop(key.id, None) is not None:
+            self._unfinished_file.replace(list(self._unfinished.values()))
 
-    def _keep_settings(self, key: EpisodeKey) -> None:
+    def add_unfinished(self, key: FolderKey, record: Record) -> None:
+        """Keep what became of an episode that has to be run again, in place of what was kept of it before."""
+        self._keep_settings(key)
+        self._unfinished[key.id] = record
+        self._unfinished_file.replace(list(self._unfinished.values()))
+
+    def _keep_settings(self, key: FolderKey) -> None:
         path = self._settings_path(key.config_hash)
         if not path.exists():
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(json.dumps(key.settings, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+            with writing(path):
+                path.write_text(json.dumps(key.settings, indent=2, sort_keys=True) + "\n", encoding="utf-8")
 
     def _settings_path(self, config_hash: str) -> Path:
         return self.path / "settings" / f"{config_hash}.json"
 
-    def _differences(self, recorded: str, key: EpisodeKey) -> str:
+    def _differences(self, recorded: str, key: FolderKey) -> str:
         path = self._settings_path(recorded)
         try:
             before = dict(_flat(json.loads(path.read_text(encoding="utf-8"))))

@@ -6,15 +6,19 @@ import json
 import os
 import warnings
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 from adhoc.core.errors import RecordError
 
 FILE_NAME = "episodes.jsonl"
-UNCHECKED = ("wall_s",)
-"""Fields that the checksum leaves out, so that equal runs have equal checksums: wall-clock times."""
+UNFINISHED_NAME = "unfinished.jsonl"
+"""Records of episodes that a run's budget cut short, in the form of the others. They are no results."""
+UNCHECKED = ("wall_s", "llm.replayed")
+"""Fields that the checksum leaves out, so that equal runs have equal checksums: wall-clock times, and how
+many answers came from a ledger, of which resumed and replayed runs have more."""
 
 Record = Mapping[str, Any]
 
@@ -56,8 +60,8 @@ class RecordFile:
     One process writes to a folder at a time. A record is on the disk when `append` returns.
     """
 
-    def __init__(self, folder: str | Path) -> None:
-        self.path = Path(folder) / FILE_NAME
+    def __init__(self, folder: str | Path, name: str = FILE_NAME) -> None:
+        self.path = Path(folder) / name
 
     def read(self) -> list[Record]:
         """All records in the order of writing; none if there is no file yet.
@@ -80,14 +84,30 @@ class RecordFile:
         return records
 
     def append(self, record: Record) -> None:
-        """Write one record behind the last complete one. Raises RecordError if a field is missing."""
+        """Write one record behind the last complete one. Raises RecordError if a field is missing, or the
+        file cannot be written."""
         line = _encode(record, self.path)
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        with open(self.path, "ab+") as file:
+        with writing(self.path), open(self.path, "ab+") as file:
             file.truncate(_complete_bytes(self.path))
             file.write(line)
             file.flush()
             os.fsync(file.fileno())
+
+    def replace(self, records: Sequence[Record]) -> None:
+        """Write these records in place of all that are there; no record is no file. After a crash the file
+        is the old one or the new one. Raises RecordError if a field is missing, or the file cannot be
+        written."""
+        lines = b"".join(_encode(record, self.path) for record in records)
+        if not records:
+            self.path.unlink(missing_ok=True)
+            return
+        fresh = self.path.with_suffix(".new")
+        with writing(self.path):
+            with open(fresh, "wb") as file:
+                file.write(lines)
+                file.flush()
+                os.fsync(file.fileno())
+            fresh.replace(self.path)
 
     def _check_unique(self, records: list[Record]) -> None:
         first_line: dict[str, int] = {}
@@ -98,6 +118,30 @@ class RecordFile:
                     f"{self.path}, line {number}: episode {record['episode_id']!r} is there twice, first in "
                     f"line {earlier}; two runs wrote to one folder"
                 )
+
+
+@contextmanager
+def writing(path: Path) -> Iterator[None]:
+    """Write a file of a run folder; its folder is made if it is missing. Raises RecordError, naming the file,
+    if it cannot be written, for example because the disk is full."""
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield
+    except OSError as error:
+        raise RecordError(f"{path}: cannot be written: {error.strerror or error}") from error
+
+
+def checked_part(record: Record) -> dict[str, Any]:
+    """A record without the `UNCHECKED` fields: equal for equal episodes."""
+    return {
+        field: _checked_value(value, f"{field}.") for field, value in record.items() if field not in UNCHECKED
+    }
+
+
+def _checked_value(value: Any, prefix: str) -> Any:
+    if not isinstance(value, Mapping):
+        return value
+    return {name: inner for name, inner in value.items() if prefix + name not in UNCHECKED}
 
 
 def _encode(record: Record, path: Path) -> bytes:
@@ -142,8 +186,7 @@ def _is_intact(record: Record, crc: object, line: bytes) -> bool:
 
 
 def _checksum(record: Record) -> str:
-    checked = {field: value for field, value in record.items() if field not in UNCHECKED}
-    return f"{zlib.crc32(_canonical(checked).encode()):08x}"
+    return f"{zlib.crc32(_canonical(checked_part(record)).encode()):08x}"
 
 
 def _canonical(record: Record) -> str:

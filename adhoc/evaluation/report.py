@@ -11,6 +11,7 @@ from rich import box
 from rich.table import Table
 
 from adhoc.core.errors import RecordError
+from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.metrics import EpisodeScore, Improvement, Scores, average, improvement
 from adhoc.evaluation.records import FILE_NAME, Record, RecordFile
 
@@ -226,12 +227,23 @@ def _warnings(records: Sequence[Record], labels: Mapping[Contestant, str]) -> It
         name = f"{record['team_label']} alone" if alone else labels[_contestant(record)]
         by_name.setdefault(name, []).append(record)
     for name, mine in by_name.items():
-        replies, invalid = _total(mine, "llm", "calls"), _total(mine, "llm", "invalid")
+        invalid, repaired = _total(mine, "llm", "invalid"), _total(mine, "llm", "repaired")
+        asked = _asked(mine) or _total(mine, "llm", "calls")
         decisions, fallbacks = _total(mine, "planning", "sub_tasks"), _total(mine, "planning", "fallbacks")
-        parts = [f"{invalid} of {replies} model replies were invalid"] if invalid else []
+        parts = [f"{invalid} of {asked} questions to the model got no usable reply"] if invalid else []
+        parts += [f"{repaired} of {asked} only when asked again"] if repaired else []
         parts += [f"{fallbacks} of {decisions} decisions fell back to the safe choice"] if fallbacks else []
         if parts:
             yield f"{name}: {'; '.join(parts)}"
+
+
+def _asked(records: Sequence[Record]) -> int:
+    """How many questions the models were asked; one that was asked again after a bad reply counts once.
+
+    Records of other versions may not tell.
+    """
+    outcomes = [record.get("llm", {}).get("outcomes", {}) for record in records]
+    return sum(int(counts.get(outcome, 0)) for counts in outcomes for outcome in JUDGED)
 
 
 def _total(records: Sequence[Record], field: str, count: str) -> int:

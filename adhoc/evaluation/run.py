@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Protocol
 
 from adhoc import __version__
 from adhoc.core.errors import ConfigurationError
+from adhoc.evaluation.common_sense import judgement_counts
 from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
 from adhoc.evaluation.episode import EpisodeResult, run_episode
-from adhoc.evaluation.folder import RunFolder
+from adhoc.evaluation.folder import EpisodeStore
 from adhoc.evaluation.lazy_scenarios import scenario_ids
+from adhoc.evaluation.llm_field import llm_field, stage_counts
 from adhoc.evaluation.metrics import score
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.scenario import Scenario
@@ -56,7 +58,7 @@ def run_comparison(
     conditions: Conditions,
     newcomer: Contender | None,
     join_step: int,
-    folder: RunFolder,
+    folder: EpisodeStore,
     progress: Progress,
     artifacts: Sequence[Artifact] = (),
 ) -> RunSummary:
@@ -78,8 +80,10 @@ def run_comparison(
     Raises:
         ConfigurationError: No scenarios, or two of one id.
         RecordError: The folder is damaged or belongs to another configuration.
+        BudgetReached: A cap of the run was reached. What became of the episode is in `unfinished.jsonl`;
+            it is run again by a later call.
     """
-    _check_ids(scenario_ids(scenarios))
+    check_ids(scenario_ids(scenarios))
     run = 0
 
     def perform(key: EpisodeKey, alone: Record | None) -> Record:
@@ -107,12 +111,12 @@ def _run_one(
     world: World,
     key: EpisodeKey,
     alone: Record | None,
-    folder: RunFolder,
+    folder: EpisodeStore,
     artifacts: Sequence[Artifact],
 ) -> Record:
     conditions, scenario = key.conditions, key.scenario
     started = time.perf_counter()
-    _reset_counts(key)
+    _begin(key)
     result = run_episode(
         world,
         scenario,
@@ -125,7 +129,10 @@ def _run_one(
         None if alone is None else unpack_history(alone["history"]),
     )
     wall = time.perf_counter() - started
-    record = make_record(key, result, alone, _counts(key), wall)
+    record = make_record(key, result, alone, stage_counts(_models(key)), wall)
+    if result.budget is not None and result.budget.scope == "run":
+        folder.add_unfinished(key, record)
+        raise result.budget
     for artifact in artifacts:
         artifact(key, result, record)
     folder.add(key, record)
@@ -136,10 +143,13 @@ def make_record(
     key: EpisodeKey,
     result: EpisodeResult,
     alone: Record | None,
-    counts: Counts,
+    stages: Mapping[str, Counts],
     wall_s: float,
 ) -> dict[str, Any]:
-    """The record of one episode; `alone` is the record of the team alone in the same scenario."""
+    """The record of one episode.
+
+    `alone` is the record of the team alone in the same scenario, `stages` what the language models counted.
+    """
     scenario = key.scenario
     reference = None if alone is None else int(alone["temporal_steps"])
     scored = score(result, reference, key.conditions.failed_share)
@@ -164,6 +174,7 @@ def make_record(
         "max_steps": result.max_steps,
         "steps": result.steps,
         "ending": result.ending.value,
+        "reached_cap": None if result.budget is None else result.budget.cap,
         "success": scored.success,
         "replaced": len(result.replaced),
         "partial_success": scored.partial_success,
@@ -174,8 +185,9 @@ def make_record(
         "efficiency": scored.efficiency,
         "messages": result.messages,
         "undeliverable": result.undeliverable,
-        "llm": _llm_field(counts),
+        "llm": llm_field(stages),
         "planning": asdict(result.trace.planning),
+        "common_sense": judgement_counts(key.conditions.task.common_sense),
         "history_hash": result.history_hash,
         "history": pack_history(result.history) if key.newcomer is None else None,
         "scenario_hash": scenario.content_hash(),
@@ -197,39 +209,19 @@ def unpack_history(packed: str) -> list[str]:
 
 
 def _models(key: EpisodeKey) -> list[CountingModel]:
-    """The models of team and newcomer; a shared one once."""
+    """The models of team, newcomer and task; a shared one once."""
     contenders = [key.conditions.team, *([] if key.newcomer is None else [key.newcomer])]
-    models = {id(one.model): one.model for one in contenders if one.model is not None}
-    return list(models.values())
+    asked = [key.conditions.model, *(one.model for one in contenders)]
+    return list({id(model): model for model in asked if model is not None}.values())
 
 
-def _reset_counts(key: EpisodeKey) -> None:
+def _begin(key: EpisodeKey) -> None:
     for model in _models(key):
-        model.reset()
+        model.begin_episode(key.id, key.scenario.seed)
 
 
-def _counts(key: EpisodeKey) -> Counts:
-    """What the models were used for since the episode began."""
-    total = Counts()
-    for model in _models(key):
-        total.add(model.total)
-    return total
-
-
-def _llm_field(counts: Counts) -> dict[str, Any]:
-    return {
-        "calls": counts.calls,
-        "prompt_tokens": counts.prompt_tokens,
-        "completion_tokens": counts.completion_tokens,
-        "cost_usd": round(counts.cost_usd, 6),
-        "replayed": 0,
-        "repaired": counts.repaired,
-        "invalid": counts.invalid,
-        "outcomes": dict(sorted(counts.outcomes.items())),
-    }
-
-
-def _check_ids(ids: Sequence[str]) -> None:
+def check_ids(ids: Sequence[str]) -> None:
+    """Raise ConfigurationError if there are no scenarios, or two of one id."""
     if not ids:
         raise ConfigurationError("there are no scenarios to run: the benchmark is empty, or limit is 0")
     if len(set(ids)) != len(ids):

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from adhoc.evaluation.episode import EpisodeResult
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.trace import Decision
+from adhoc.prompting.clean import one_line
+
+_MARKS = re.compile(r"[\\`*~\[\]]|(?<!\w)_|_(?!\w)")
+"""What Markdown takes for more than text within a line; `<` and `>` are none after `one_line`."""
+_MAX_CHARACTERS = 8000
 
 
 def write_transcript(result: EpisodeResult, record: Record) -> str | None:
     """The episode's most telling sub-task decision in Markdown; None if no policy reported one.
 
     Most telling is the one with the most replies of teammates, then the most candidates; the earliest of
-    equals. Whatever a policy left out of its trace is left out of the page.
+    equals. Whatever a policy left out of its trace is left out of the page. What robots and models said is
+    text on it, and brings no markup of its own: no heading, link or picture.
     """
     decisions = [decision for decision in result.trace.decisions if _plan(decision)]
     if not decisions:
@@ -25,17 +32,17 @@ def write_transcript(result: EpisodeResult, record: Record) -> str | None:
 
 def _page(decision: Decision, record: Record) -> Iterator[str]:
     plan = _plan(decision)
-    yield f"# A decision of {decision.agent} at step {decision.step}"
+    yield f"# A decision of {_plain(decision.agent)} at step {decision.step}"
     yield ""
-    yield f"- episode: `{record['episode_id']}`"
-    yield f"- policy: {record['policy_label']}; language model: {record['model'] or 'none'}"
+    yield f"- episode: {_code(record['episode_id'])}"
+    yield f"- policy: {_plain(record['policy_label'])}; language model: {_plain(record['model'] or 'none')}"
     if plan.get("reason"):
-        yield f"- why it planned: {plan['reason']}"
-    yield f"- **chosen sub-task: {plan.get('chosen', 'unknown')}**"
+        yield f"- why it planned: {_plain(plan['reason'])}"
+    yield f"- **chosen sub-task: {_plain(plan.get('chosen', 'unknown'))}**"
     if plan.get("fallback"):
-        yield f"- safe choice taken because: {plan['fallback']}"
+        yield f"- safe choice taken because: {_plain(plan['fallback'])}"
     for skill in _listed(decision.trace.get("skills")):
-        yield f"- sub-skill: {skill.get('chosen') or 'refused: ' + str(skill.get('refused'))}"
+        yield f"- sub-skill: {_plain(skill.get('chosen') or 'refused: ' + str(skill.get('refused')))}"
     yield ""
     yield from _section("Candidates", [_candidate(one) for one in _listed(plan.get("candidates"))])
     yield from _section("Ranking", [_candidate(one) for one in _listed(plan.get("ranking"))], numbered=True)
@@ -58,15 +65,17 @@ def _section(title: str, items: Sequence[str], numbered: bool = False) -> Iterat
 
 def _conversation(title: str, exchanges: Sequence[Mapping[str, Any]]) -> Iterator[str]:
     for exchange in exchanges:
-        yield f"## {title}: {exchange.get('stage', 'model call')}"
+        yield f"## {title}: {_plain(exchange.get('stage', 'model call'))}"
         yield ""
         for message in _listed(exchange.get("prompt")):
-            yield from _quoted(f"Prompt ({message.get('role', 'user')})", message.get("content"))
+            yield from _quoted(f"Prompt ({_plain(message.get('role', 'user'))})", message.get("content"))
         yield from _quoted("Reply", exchange.get("reply"))
 
 
 def _quoted(title: str, text: object) -> Iterator[str]:
-    content = str(text)
+    content = "".join(
+        it if it.isprintable() or it in "\n\t" else "\N{REPLACEMENT CHARACTER}" for it in str(text)
+    )
     fence = "```"
     while fence in content:
         fence += "`"
@@ -75,19 +84,27 @@ def _quoted(title: str, text: object) -> Iterator[str]:
 
 def _candidate(candidate: Mapping[str, Any]) -> str:
     score = candidate.get("score")
-    line = f"`{candidate.get('sub_task')}`" + ("" if score is None else f" (score {score:g})")
-    return line + (f": {candidate['rationale']}" if candidate.get("rationale") else "")
+    line = _code(candidate.get("sub_task")) + ("" if score is None else f" (score {score:g})")
+    return line + (f": {_plain(candidate['rationale'])}" if candidate.get("rationale") else "")
 
 
 def _reply(reply: Mapping[str, Any]) -> str:
-    return f"**{reply.get('sender', 'somebody')}**: {reply.get('text', '')}"
+    return f"**{_plain(reply.get('sender', 'somebody'))}**: {_plain(reply.get('text', ''))}"
 
 
 def _verdict(verdict: Mapping[str, Any]) -> str:
     word = "feasible" if verdict.get("feasible") else "refused"
-    return f"`{verdict.get('sub_task')}`: {word}" + (
-        f", {verdict['reason']}" if verdict.get("reason") else ""
-    )
+    reason = f", {_plain(verdict['reason'])}" if verdict.get("reason") else ""
+    return f"{_code(verdict.get('sub_task'))}: {word}{reason}"
+
+
+def _plain(value: object) -> str:
+    """Text that means the same in Markdown."""
+    return _MARKS.sub(r"\\\g<0>", one_line(str(value), _MAX_CHARACTERS))
+
+
+def _code(value: object) -> str:
+    return "`" + one_line(str(value), _MAX_CHARACTERS).replace("`", "'") + "`"
 
 
 def _plan(decision: Decision) -> Mapping[str, Any]:

@@ -80,6 +80,13 @@ def pickupable_categories() -> tuple[str, ...]:
     return tuple(name for name in categories() if _category(name)["pickupable"])
 
 
+@cache
+def receptacle_categories() -> tuple[str, ...]:
+    """The object types on or in which the statistics have things, sorted; a few, such as bowls, can be
+    carried themselves."""
+    return tuple(sorted(fact_table("receptacles")))
+
+
 def assets_of(category: str) -> tuple[str, ...]:
     """The ids of all assets of an object type, sorted. Raises AssetError if the type is unknown."""
     _category(category)
@@ -145,7 +152,7 @@ def places_for(category: str) -> tuple[Place, ...]:
     robot cannot put things there. Empty for the few types that have no reasonable place. Raises AssetError
     if the type is unknown.
     """
-    receptacles = [name for name in fact_table("receptacles") if category_facts(name).is_receptacle]
+    receptacles = [name for name in receptacle_categories() if category_facts(name).is_receptacle]
     places = [
         Place(receptacle, room_type)
         for receptacle in (*receptacles, FLOOR)

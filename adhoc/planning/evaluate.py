@@ -9,7 +9,7 @@ from adhoc.llm.model import LanguageModel
 from adhoc.planning.inquiry import Inquiry
 from adhoc.planning.interfaces import Evaluator
 from adhoc.prompting.library import PromptLibrary
-from adhoc.prompting.parse import read_ranking
+from adhoc.prompting.reply_forms import ranking_form
 from adhoc.prompting.stage import StageInput
 
 
@@ -39,7 +39,7 @@ class LLMEvaluator(Evaluator):
         if len(candidates) < 2:
             return tuple(candidates)
         stage = StageInput(candidates=tuple(candidates))
-        order = self._inquiry.ask(context, stage, lambda text: read_ranking(text, len(candidates)))
+        order = self._inquiry.ask(context, stage, lambda prompt: ranking_form(prompt, len(candidates)))
         return tuple(candidates[index] for index in order)
 
 

@@ -10,8 +10,9 @@ from adhoc.core.plans import Candidate, Context, Prediction
 from adhoc.llm.model import LanguageModel
 from adhoc.planning.inquiry import Inquiry
 from adhoc.planning.interfaces import Evaluator, SubTaskGenerator
+from adhoc.planning.legality import Legal, refusal_by
 from adhoc.prompting.library import PromptLibrary
-from adhoc.prompting.parse import read_predictions, read_scores, read_sub_tasks
+from adhoc.prompting.reply_forms import predictions_form, scores_form, sub_tasks_form
 from adhoc.prompting.stage import StageInput
 
 
@@ -29,6 +30,7 @@ class GPLGenerator(SubTaskGenerator):
         prompts: Where templates come from; the shipped ones by default.
         repairs: See `Inquiry`.
         max_tokens: The longest reply of either call.
+        legal: See `LLMGenerator`; what the teammates are able to do is not checked.
 
     Raises:
         ConfigurationError: n is below 1.
@@ -43,10 +45,11 @@ class GPLGenerator(SubTaskGenerator):
         prompts: PromptLibrary | None = None,
         repairs: int = 1,
         max_tokens: int = 1024,
+        legal: Legal | None = None,
     ) -> None:
         if n < 1:
             raise ConfigurationError(f"GPLGenerator: n is {n}, it must be at least 1")
-        self._count = n
+        self._count, self._legal = n, legal
         self._predict = Inquiry(model, predict_template, prompts, repairs, max_tokens)
         self._generate = Inquiry(model, template, prompts, repairs, max_tokens)
 
@@ -57,15 +60,22 @@ class GPLGenerator(SubTaskGenerator):
         predictions: the robot must do something all the same, and the invalid replies are counted.
         """
         predictions = self._predictions(context) if context.teammates else ()
-        stage = StageInput(count=self._count, predictions=predictions)
-        proposed = self._generate.ask(context, stage, lambda text: read_sub_tasks(text, context, self._count))
+        refusal = refusal_by(self._legal, context.task.sub_tasks, context.capability)
+        proposed: tuple[Candidate, ...] = self._generate.ask(
+            context,
+            StageInput(count=self._count, predictions=predictions),
+            lambda prompt: sub_tasks_form(prompt, context, self._count, refusal),
+        )
         return tuple(replace(candidate, predictions=predictions) for candidate in proposed)
 
     def _predictions(self, context: Context) -> tuple[Prediction, ...]:
         try:
-            return self._predict.ask(context, StageInput(), lambda text: read_predictions(text, context))
+            predictions: tuple[Prediction, ...] = self._predict.ask(
+                context, StageInput(), lambda prompt: predictions_form(prompt, context)
+            )
         except ReplyError:
             return ()
+        return predictions
 
 
 class GPLEvaluator(Evaluator):
@@ -93,6 +103,6 @@ class GPLEvaluator(Evaluator):
         """See `Evaluator`. By score, ties in the order of generation; those without a score come last."""
         predictions = dict.fromkeys(it for candidate in candidates for it in candidate.predictions)
         stage = StageInput(candidates=tuple(candidates), predictions=tuple(predictions))
-        scores = self._inquiry.ask(context, stage, lambda text: read_scores(text, len(candidates)))
+        scores = self._inquiry.ask(context, stage, lambda prompt: scores_form(prompt, len(candidates)))
         scored = [replace(candidate, score=score) for candidate, score in zip(candidates, scores)]
         return tuple(sorted(scored, key=lambda it: (it.score is None, -(it.score or 0.0))))

@@ -1,29 +1,33 @@
-"""Asking a language model one question of one stage, with a bounded number of repairs."""
+"""Asking a language model one question of one stage."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeVar
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any
 
 from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import ConfigurationError, ReplyError
 from adhoc.core.plans import Context
-from adhoc.llm.model import LanguageModel, LMRequest
+from adhoc.core.replies import ReplyFormat
+from adhoc.llm.model import LanguageModel, LMRequest, LMResponse
+from adhoc.llm.together import ask_together
+from adhoc.llm.validating import ValidatingModel, fits_window
 from adhoc.prompting.library import PromptLibrary, shipped_prompts
 from adhoc.prompting.stage import StageInput
 
-Value = TypeVar("Value")
+FormOf = Callable[[Sequence[ChatMessage]], ReplyFormat]
+"""Makes the form of a reply for a rendered prompt: what it may name is what the prompt names."""
 
 
 class Inquiry:
-    """Renders a template, asks the model, and reads the reply; every stage of planning has one.
+    """Renders a template, asks the model, and has the reply validated; every stage of planning has one.
 
     Args:
         model: The language model; share one among all stages.
         template: Name of the prompt template.
         prompts: Where templates come from; the shipped ones by default.
-        repairs: How often a reply that cannot be used is shown to the model again with what is wrong about
-            it. The paper is silent; one repair catches most slips and bounds the cost.
+        repairs: See `ValidatingModel`.
         max_tokens: The longest reply.
 
     Raises:
@@ -39,47 +43,46 @@ class Inquiry:
         repairs: int = 1,
         max_tokens: int = 1024,
     ) -> None:
-        if repairs < 0 or max_tokens < 1:
-            raise ConfigurationError(
-                f"template {template!r}: repairs={repairs} must not be negative and max_tokens={max_tokens} "
-                "must be at least 1"
-            )
-        self._model, self._template, self._repairs, self._max_tokens = model, template, repairs, max_tokens
+        if max_tokens < 1:
+            raise ConfigurationError(f"template {template!r}: max_tokens={max_tokens} must be at least 1")
+        self._model = ValidatingModel(model, repairs)
+        self._template, self._max_tokens = template, max_tokens
         self._prompts = prompts or shipped_prompts()
         self._prompts.check(template)
 
-    def ask(self, context: Context, stage: StageInput, read: Callable[[str], Value]) -> Value:
-        """What `read` makes of the model's reply.
-
-        Every reply that cannot be used is noted on the model (`note_invalid`), so that wrappers count it.
+    def ask(self, context: Context, stage: StageInput, form_of: FormOf) -> Any:
+        """What the form that `form_of` makes of the prompt reads from the model's reply.
 
         Raises:
             ReplyError: no usable reply, after all repairs.
             ModelError: the model cannot be used at all.
         """
-        asked = self._prompts.render(self._template, context, stage)
-        messages = asked
-        for attempt in range(self._repairs + 1):
-            text = ""
-            try:
-                request = LMRequest(messages, self._template, self._max_tokens, attempt)
-                text = self._model.complete(request).text
-                value = read(text)
-            except ReplyError as error:
-                self._model.note_invalid(self._template, error.outcome)
-                messages, problem = (*asked, *_repair(text, error)), error
-            else:
-                if attempt:
-                    self._model.note_repaired(self._template)
-                return value
-        raise problem
+        return self._model.complete(self._request(context, stage, form_of)).parsed
 
+    def ask_samples(self, context: Context, stage: StageInput, form_of: FormOf, samples: int) -> list[Any]:
+        """What is read from several replies to the same question, which are independent samples and are
+        asked for together; those that are of no use are left out.
 
-def _repair(text: str, error: ReplyError) -> tuple[ChatMessage, ...]:
-    """The end of the conversation that asks again; an empty reply is not shown."""
-    request = ChatMessage(
-        "user",
-        f"Your reply could not be used ({error.outcome}): {error}\n"
-        "Answer again with exactly one JSON object of the form given under 'Output format'.",
-    )
-    return (ChatMessage("assistant", text), request) if text else (request,)
+        Raises what `ask` raises, ReplyError only if no reply is usable.
+        """
+        request = self._request(context, stage, form_of)
+        answers = ask_together(self._model, [replace(request, sample=it) for it in range(samples)])
+        read = [answer.parsed for answer in answers if isinstance(answer, LMResponse)]
+        if not read:
+            raise next(answer for answer in answers if isinstance(answer, ReplyError))
+        return read
+
+    def _request(self, context: Context, stage: StageInput, form_of: FormOf) -> LMRequest:
+        prompt = self._prompts.fit(self._template, context, stage, self._fits)
+        return LMRequest(
+            prompt.messages,
+            self._template,
+            self._max_tokens,
+            reply=form_of(prompt.messages),
+            template=self._prompts.fingerprint,
+            agent=context.me,
+            left_out_messages=prompt.left_out_messages,
+        )
+
+    def _fits(self, messages: Sequence[ChatMessage]) -> bool:
+        return fits_window(self._model, messages, self._max_tokens)

@@ -10,7 +10,7 @@ from adhoc.llm.model import LanguageModel
 from adhoc.planning.inquiry import Inquiry
 from adhoc.planning.interfaces import Reflector
 from adhoc.prompting.library import PromptLibrary
-from adhoc.prompting.parse import read_verdict
+from adhoc.prompting.reply_forms import verdict_form
 from adhoc.prompting.stage import StageInput
 
 
@@ -39,7 +39,9 @@ class LLMReflector(Reflector):
 
     def judge(self, context: Context, candidate: Candidate, replies: Sequence[Message]) -> Verdict:
         """See `Reflector`."""
-        return self._inquiry.ask(context, StageInput(chosen=candidate, replies=tuple(replies)), read_verdict)
+        stage = StageInput(chosen=candidate, replies=tuple(replies))
+        verdict: Verdict = self._inquiry.ask(context, stage, verdict_form)
+        return verdict
 
 
 class AcceptFirst(Reflector):

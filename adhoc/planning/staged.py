@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 
 from adhoc.core.calls import Call
 from adhoc.core.errors import ConfigurationError, ReplyError
 from adhoc.core.messages import Message
 from adhoc.core.plans import Candidate, Context, Event, Plan, Verdict
-from adhoc.core.values import Capability
 from adhoc.planning.interfaces import Consult, Evaluator, Planner, Reflector, SubTaskGenerator
-
-Legal = Callable[[Call, Capability], str | None]
-"""None if a robot of that capability may do the sub-task, else the reason: `Task.legal`."""
+from adhoc.planning.legality import Legal, refusal_by
 
 
 class StagedPlanner(Planner):
@@ -101,15 +98,7 @@ class StagedPlanner(Planner):
         return trail.judged(candidate, verdict), context
 
     def _illegality(self, context: Context, candidate: Candidate) -> str | None:
-        if self._legal is not None:
-            return self._legal(candidate.sub_task, context.capability)
-        specs = {spec.name: spec for spec in context.task.sub_tasks}
-        spec = specs.get(candidate.sub_task.name)
-        if spec is None:
-            return f"{candidate.sub_task.name!r} is not one of {sorted(specs)}"
-        if spec.needs_manipulation and not context.capability.can_manipulate:
-            return f"{spec.name} needs manipulation ability, which the robot lacks"
-        return None
+        return refusal_by(self._legal, context.task.sub_tasks, context.capability)(candidate.sub_task)
 
 
 @dataclass

@@ -2,95 +2,73 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator
 from typing import Any
 
 from adhoc.core.errors import ReplyError
+from adhoc.core.replies import EMPTY, UNREADABLE
+from adhoc.prompting.lenient_json import NoJSON, bracketed
 
-_FENCE = re.compile(r"```(?:json|JSON)?\s*\n?(.*?)```", re.DOTALL)
-_OBJECT_BEGINS = re.compile(r'\{\s*(?:"|$)')
-_TRAILING_COMMA = re.compile(r",(\s*[}\]])")
-_LITERALS = (("True", "true"), ("False", "false"), ("None", "null"))
-_MAX_STARTS = 64
-"""Opening braces that are tried, so that a hostile text cannot take quadratic time for long."""
+MAX_CHARACTERS = 64_000
+"""The longest reply that is read: some thirteen times what a reply of 1,024 tokens has."""
+_FENCE = re.compile(r"```(.*?)```", re.DOTALL)
+_OBJECT_BEGINS = re.compile(r"""\{\s*(?:["'}]|[A-Za-z_]\w*\s*:|//|/\*|\#|$)""")
+"""A brace with a key after it, and not just a brace in prose."""
+_MAX_OBJECTS = 64
+"""Objects that a reply may have: the last one counts, but one that has this many is no answer."""
 _SHOWN = 120
 
 
 def read_object(text: str) -> dict[str, Any]:
     """The JSON object in `text`: bare, in a code fence, or with prose around it.
 
-    Trailing commas and Python's True, False and None are forgiven. Where there are several objects, the
-    last complete outermost one counts: models correct themselves at the end.
+    What `prompting.lenient_json` forgives is forgiven. Where there are several objects, the last outermost
+    one counts: models correct themselves at the end.
 
     Raises:
-        ReplyError: `empty` without any text, `truncated` if an object begins and does not end,
-            `unreadable` if there is no object.
+        ReplyError: `empty` without any text, `truncated` if the last object does not end, `duplicate` if an
+            object in it has a key twice, `unreadable` if there is no object, or one that is nested too deeply
+            or holds numbers that are none, or if the reply is too long or has too many objects.
     """
     if not text.strip():
-        raise ReplyError("the reply is empty; expected one JSON object", "empty")
-    for part in (*reversed(_FENCE.findall(text)), text):
-        found = list(_objects(part))
-        if found:
-            return found[-1]
-    shown = text.strip()[:_SHOWN]
-    if any(_is_cut_off(text, match.start()) for match in _OBJECT_BEGINS.finditer(text)):
-        raise ReplyError(f"the reply's JSON object does not end: {shown!r}", "truncated")
-    raise ReplyError(f"the reply holds no JSON object: {shown!r}", "unreadable")
+        raise ReplyError("the reply is empty; expected one JSON object", EMPTY)
+    if len(text) > MAX_CHARACTERS:
+        raise ReplyError(
+            f"the reply has {len(text)} characters; one of more than {MAX_CHARACTERS} is not read", UNREADABLE
+        )
+    problem = ""
+    for part in _parts(text):
+        found: dict[str, Any] | None = None
+        for value in _objects(part):
+            if isinstance(value, dict):
+                found = value
+            else:
+                problem = value
+        if found is not None:
+            return found
+    raise ReplyError(f"the reply holds no JSON object: {problem or repr(text.strip()[:_SHOWN])}", UNREADABLE)
 
 
-def _objects(text: str) -> Iterator[dict[str, Any]]:
-    """The outermost objects of a text, in order."""
-    decoder = json.JSONDecoder()
-    position = text.find("{")
-    for _ in range(_MAX_STARTS):
-        if position < 0:
+def _parts(text: str) -> Iterator[str]:
+    """Where to look, one place after the other; fences count only around an object, not within one."""
+    if not text.lstrip().startswith("{"):
+        yield from reversed(_FENCE.findall(text))
+    yield text
+
+
+def _objects(text: str) -> Iterator[dict[str, Any] | str]:
+    """The outermost objects of a text in order; for what only looks like one, what is wrong with it."""
+    position = 0
+    for _ in range(_MAX_OBJECTS):
+        match = _OBJECT_BEGINS.search(text, position)
+        if match is None:
             return
-        value, end = _decode(decoder, text, position)
-        if isinstance(value, dict):
-            yield value
-        elif _is_cut_off(text, position):
-            return
-        position = text.find("{", max(end, position + 1))
-
-
-def _decode(decoder: json.JSONDecoder, text: str, position: int) -> tuple[Any, int]:
-    """The value at `position` and where it ends; (None, position) if there is none."""
-    try:
-        return decoder.raw_decode(text, position)
-    except (json.JSONDecodeError, RecursionError):
-        pass
-    end = _matching_brace(text, position)
-    if end is None:
-        return None, position
-    repaired = _TRAILING_COMMA.sub(r"\1", text[position:end])
-    for python, plain in _LITERALS:
-        repaired = re.sub(rf"(?<=[:\[,])(\s*){python}\b", rf"\1{plain}", repaired)
-    try:
-        return json.loads(repaired, strict=False), end
-    except (json.JSONDecodeError, RecursionError):
-        return None, position
-
-
-def _matching_brace(text: str, position: int) -> int | None:
-    """The index after the brace that closes the one at `position`, outside of strings; None if none does."""
-    depth, in_string, escaped = 0, False, False
-    for index in range(position, len(text)):
-        character = text[index]
-        if in_string:
-            in_string = escaped or character != '"'
-            escaped = character == "\\" and not escaped
-        elif character == '"':
-            in_string = True
-        elif character in "{}":
-            depth += 1 if character == "{" else -1
-            if depth == 0:
-                return index + 1
-    return None
-
-
-def _is_cut_off(text: str, start: int) -> bool:
-    """Whether a JSON object, and not just a brace in prose, begins at `start` and does not end."""
-    begins = _OBJECT_BEGINS.match(text, start) is not None
-    return begins and _matching_brace(text, start) is None
+        try:
+            found = bracketed(text, match.start())
+            position = found.end
+            yield found.value()
+        except NoJSON as error:
+            position = max(error.end, match.start() + 1)
+            yield str(error)
+    raise ReplyError(f"the reply has {_MAX_OBJECTS} objects or more; expected one", UNREADABLE)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from adhoc.core.errors import AssetError
 from adhoc.core.values import Place
 from adhoc.houses import facts
 from adhoc.tasks.common_sense import CommonSense
@@ -18,12 +19,21 @@ class PlacementCommonSense(CommonSense):
     """
 
     def is_misplaced(self, category: str, receptacle: str, room_type: str) -> bool:
-        """See `CommonSense`; `room_type` is one of `houses.facts.ROOM_TYPES` or `Corridor`."""
-        return not facts.is_reasonable(category, receptacle, room_type)
+        """See `CommonSense`; `room_type` is one of `houses.facts.ROOM_TYPES` or `Corridor`.
+
+        What the statistics do not know belongs nowhere, and holds nothing: teammates may tell of anything.
+        """
+        try:
+            return not facts.is_reasonable(category, receptacle, room_type)
+        except AssetError:
+            return True
 
     def places_for(self, category: str) -> Sequence[Place]:
         """See `CommonSense`."""
-        return facts.places_for(category)
+        try:
+            return facts.places_for(category)
+        except AssetError:
+            return ()
 
 
 def placement_table() -> Mapping[str, Sequence[Place]]:

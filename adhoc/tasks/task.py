@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from adhoc.core.calls import Call, CallSpec, ParameterKind, TaskBrief
 from adhoc.core.errors import TaskError
 from adhoc.core.values import Capability, ObjectRecord, RoomRecord
+from adhoc.tasks.common_sense import CommonSense
 
 
 class Task(ABC):
@@ -46,6 +47,19 @@ class Task(ABC):
     def examples(self) -> Mapping[str, str]:
         """In-context examples per stage: `generate`, `evaluate`, `reflect`, `sub_skill`."""
         return {}
+
+    @property
+    def common_sense(self) -> CommonSense | None:
+        """By what the task judges where things belong; None if it has no need of that."""
+        return None
+
+    def begin_episode(self) -> None:
+        """Told before every episode: nothing that was asked for in an earlier one may be left over."""
+        if self.common_sense is not None:
+            self.common_sense.begin_episode()
+
+    def anticipate(self, records: Iterable[ObjectRecord]) -> None:  # noqa: B027
+        """Told which objects `judge` is asked about next, so that a model can be asked about all together."""
 
     @abstractmethod
     def judge(self, record: ObjectRecord, room_type: Mapping[str, float]) -> bool | None:

@@ -48,6 +48,6 @@ class LanguageModelContract(ABC):
     def test_answers_the_same_when_told_of_invalid_replies(self) -> None:
         expected = self.model().complete(self.request())
         model = self.model()
-        model.note_invalid("generate", "unreadable")
-        model.note_repaired("generate")
+        model.note("generate", "unreadable")
+        model.note("generate", "repaired")
         assert model.complete(self.request()) == expected

@@ -16,6 +16,18 @@ from adhoc.llm.model import LanguageModel
 from adhoc.llm.scripted import ScriptedModel
 from adhoc.planning.interfaces import Consult, Consultation, Planner
 
+NONSENSE = (
+    "",
+    "no idea",
+    "{",
+    '{"sub_tasks": [{"name": "Nonsense"}]}',
+    '{"sub_tasks": NaN}',
+    '{"sub_tasks": [], "sub_tasks": []}',
+    '{"sub_tasks": ' + "[" * 10_000,
+    "nothing " * 100_000,
+)
+"""Replies of which nothing can be made."""
+
 
 def told_nothing(context: Context) -> Consult:
     """A consultation to which nobody replies."""
@@ -68,7 +80,7 @@ class PlannerContract(ABC):
         self.planner(self.good_model()).plan(context, told_nothing(context))
         assert repr(context) == before
 
-    @pytest.mark.parametrize("reply", ["", "no idea", "{", '{"sub_tasks": [{"name": "Nonsense"}]}'])
+    @pytest.mark.parametrize("reply", NONSENSE)
     def test_a_model_that_talks_nonsense_ends_in_a_stated_fallback(self, reply: str) -> None:
         model = ScriptedModel([reply] * 50)
         plan = self.planner(model).plan(self.context(), told_nothing(self.context()))

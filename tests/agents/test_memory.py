@@ -8,7 +8,8 @@ from dataclasses import replace
 import pytest
 
 from adhoc.agents.communication import detection_message, state_payload, task_state_message
-from adhoc.agents.memory import Memory, merge_news
+from adhoc.agents.memory import Memory
+from adhoc.agents.news import merge_news
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Action, ActionName, Capability, ObjectRecord, Pose

@@ -214,8 +214,14 @@ class TestRun:
         assert {path.name for path in Path("results").iterdir()} == {
             "episodes.jsonl",
             "multirun.yaml",
+            "run.lock",
             "settings",
         }
+
+    def test_a_run_that_is_killed_leaves_nothing_in_the_temporary_folder(self, monkeypatch):
+        """Because it makes nothing there."""
+        monkeypatch.setattr("tempfile.tempdir", "nowhere")
+        assert walker() == 0
 
     def test_pictures_are_drawn(self):
         assert walker("pictures=true") == 0

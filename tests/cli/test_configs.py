@@ -24,7 +24,11 @@ from adhoc.worlds.world import World
 
 ROOT = data_dir("configs")
 FILES = sorted(str(path.relative_to(ROOT).with_suffix("")) for path in ROOT.rglob("*.yaml"))
-NEEDED = {"llm/litellm": ["llm.model=some-model"], "benchmark/house": ["benchmark.path=house.json"]}
+NEEDED = {
+    "llm/litellm": ["llm.model=some-model"],
+    "llm/local": ["llm.path=model.gguf"],
+    "benchmark/house": ["benchmark.path=house.json"],
+}
 WITH_A_MODEL = {"cot", "gpl", "irot", "naive", "no_subtask_planner"}
 
 
@@ -121,7 +125,9 @@ VISIBLE = {
     "policy/planner/staged": {"max_rounds"},
     "policy/agent/llm": {"patience", "pause"},
     "llm/offline": {"seed", "forget_capability", "ignore_teammate", "ignore_reply"},
-    "llm/litellm": {"temperature", "timeout", "max_tokens", "api_base"},
+    "llm/litellm": {"temperature", "timeout", "max_tokens", "api_base", "structured", "window"},
+    "llm/local": {"temperature", "max_tokens", "structured", "window", "threads", "at_once", "gpu_layers"},
+    "task/common_sense/llm": {"repairs", "max_tokens"},
     "world/pybullet": {"image_size", "renderer", "mass_scale"},
     "benchmark/paper": {"dataset", "split", "subset", "mass_scale", "folder"},
     "benchmark/procthor10k": {"path", "split", "houses_per_count", "counts", "seed"},

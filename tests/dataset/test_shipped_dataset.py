@@ -8,9 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from adhoc.core.line_checksum import canonical
 from adhoc.dataset.benchmarks import TaskFileBenchmark
 from adhoc.dataset.files.ceiling_file import read_ceilings
-from adhoc.dataset.files.checked_lines import canonical, read_compressed
+from adhoc.dataset.files.checked_lines import read_compressed
 from adhoc.dataset.files.dataset_folder import SPLITS, DatasetSplit, dataset_folder
 from adhoc.dataset.files.task_file import StoredTask
 from adhoc.dataset.generator import ROOM_COUNTS, generate_house

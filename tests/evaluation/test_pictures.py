@@ -4,6 +4,7 @@ import matplotlib.image
 import numpy as np
 import pytest
 from grid_world import Errand, GridWorld, Script, fetch, scenario, two_rooms
+from markdown_it import MarkdownIt
 
 from adhoc.agents.policy import Turn
 from adhoc.core.chat import ChatMessage
@@ -15,7 +16,6 @@ from adhoc.evaluation.floor_drawing import draw_floor_plan, footprint
 from adhoc.evaluation.picture import draw_episode
 from adhoc.evaluation.run import make_record
 from adhoc.evaluation.transcript import write_transcript
-from adhoc.llm.counting import Counts
 from adhoc.llm.model import LMRequest
 from adhoc.llm.scripted import ScriptedModel
 
@@ -50,7 +50,7 @@ def play(newcomer, max_steps=20, join_step=3):
     result = run_episode(GridWorld(), where, Errand(), [Script(), Script()], newcomer, join_step, max_steps)
     conditions = Conditions(Errand(), Contender("walkers", "Walkers", Script), max_steps)
     key = EpisodeKey(where, conditions, Contender("thinker", "Thinker", Script), join_step)
-    return result, make_record(key, result, None, Counts(), 0.0)
+    return result, make_record(key, result, None, {}, 0.0)
 
 
 class TestPicture:
@@ -103,6 +103,27 @@ class TestTranscript:
             "````text\na ``` fence\n````",
         ):
             assert part in page, part
+
+    def test_what_robots_and_models_say_brings_no_markup(self):
+        hostile = "![x](http://a.b/c) [y](z) **b** `c` <img src=x> \n## Heading\n~~s~~ _e_ room_5 \x1b[31m"
+        decision = {
+            "reason": hostile,
+            "chosen": hostile,
+            "fallback": hostile,
+            "candidates": [{"sub_task": hostile, "rationale": hostile}],
+            "replies": [{"sender": hostile, "text": hostile}],
+            "verdicts": [{"sub_task": hostile, "feasible": False, "reason": hostile}],
+            "exchanges": [
+                {"stage": hostile, "prompt": [{"role": hostile, "content": "x"}], "reply": hostile}
+            ],
+        }
+        skills = [{"chosen": hostile}, {"refused": hostile}]
+        page = str(write_transcript(*play(Thinker({4: {"decision": decision, "skills": skills}}))))
+        html = MarkdownIt("commonmark").enable("strikethrough").render(page)
+        assert "\x1b" not in page
+        for tag in ("<img", "<a ", "<em>", "<s>", "<strong>b</strong>", "<h2>Heading"):
+            assert tag not in html, tag
+        assert "room_5" in page.split("```text")[0], "names stay as they are"
 
     def test_the_decision_with_most_replies_is_chosen(self):
         poor = {**DECISION, "replies": [], "chosen": "Stop"}

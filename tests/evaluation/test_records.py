@@ -1,7 +1,10 @@
 from __future__ import annotations
 
 import json
+import resource
+import signal
 import warnings
+from contextlib import contextmanager
 
 import pytest
 from hypothesis import HealthCheck, given, settings
@@ -136,3 +139,29 @@ def test_the_checksum_leaves_out_the_wall_clock(tmp_path):
         RecordFile(tmp_path / name).append(record(wall_s=wall))
     first, second = (json.loads((tmp_path / name / "episodes.jsonl").read_text()) for name in ("a", "b"))
     assert first["crc"] == second["crc"]
+
+
+@contextmanager
+def full_disk(file):
+    """No file may grow beyond the size of the records: what a full disk does, for this process alone.
+
+    Nothing else may write meanwhile, such as a test runner to its own log.
+    """
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    before = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (file.path.stat().st_size + 100, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+        signal.signal(signal.SIGXFSZ, before)
+
+
+def test_a_full_disk_is_told_and_nothing_is_lost(file):
+    told = r"episodes\.jsonl: cannot be written: File too large"
+    with pytest.raises(RecordError, match=told), full_disk(file):
+        file.append(record(7))
+    with pytest.raises(RecordError, match=told), full_disk(file):
+        file.replace([record(number) for number in range(9)])
+    with pytest.warns(TornRecordWarning):
+        assert len(file.read()) == 3

@@ -103,9 +103,10 @@ def test_late_newcomers_are_counted():
     assert any("1 of them ended before" in note for note in make_report([*RECORDS, late]).notes)
 
 
-def talk(calls, invalid, sub_tasks, fallbacks):
+def talk(asked, invalid, sub_tasks, fallbacks, repaired=0):
+    outcomes = {"valid": asked - invalid - repaired, "repaired": repaired, "invalid": invalid, "illegal": 99}
     return {
-        "llm": {"calls": calls, "invalid": invalid},
+        "llm": {"calls": 1000, "invalid": invalid, "repaired": repaired, "outcomes": outcomes},
         "planning": {"sub_tasks": sub_tasks, "fallbacks": fallbacks},
     }
 
@@ -116,24 +117,24 @@ def test_what_is_not_the_models_doing_is_told_for_each_row():
         failed("a", "IRoT-LLM", 50, "tiny", **talk(60, 60, 13, 13)),
         failed("a", "IRoT-LLM", 0, "tiny", **talk(36, 36, 10, 10)),
         failed("a", "IRoT-LLM", 50, "huge", **talk(40, 0, 10, 1)),
-        failed("a", "CoT-LLM", 50, "tiny", **talk(40, 2, 10, 0)),
+        failed("a", "CoT-LLM", 50, "tiny", **talk(40, 2, 10, 0, 7)),
         failed("a", "Naive-LLM", 50, "tiny", **talk(40, 0, 10, 0)),
         failed("left out", "Naive-LLM", 50, "tiny", **talk(40, 40, 10, 10)),
     ]
     report = make_report(records)
     assert report.warnings == (
-        "IRoT-LLM (tiny): 96 of 96 model replies were invalid; "
+        "IRoT-LLM (tiny): 96 of 96 questions to the model got no usable reply; "
         "23 of 23 decisions fell back to the safe choice",
         "IRoT-LLM (huge): 1 of 10 decisions fell back to the safe choice",
-        "CoT-LLM: 2 of 40 model replies were invalid",
+        "CoT-LLM: 2 of 40 questions to the model got no usable reply; 7 of 40 only when asked again",
     )
     assert to_markdown(report).count("**") == 2 * 3
-    assert "- **CoT-LLM: 2 of 40 model replies were invalid**" in to_markdown(report)
+    assert f"- **{report.warnings[-1]}**" in to_markdown(report)
 
 
 def test_a_team_with_a_model_is_told_of_too():
     assert make_report([failed("a", **talk(3, 2, 0, 0))]).warnings == (
-        "Heuristic based alone: 2 of 3 model replies were invalid",
+        "Heuristic based alone: 2 of 3 questions to the model got no usable reply",
     )
 
 

@@ -1,22 +1,25 @@
-"""The adapter to litellm, against an OpenAI-compatible server on loopback."""
+"""The adapter to litellm, against the provider on loopback."""
 
 from __future__ import annotations
 
-import contextlib
 import json
-import threading
-import time
+import subprocess
+import sys
 from collections.abc import Iterator
-from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import ConfigurationError, ModelBusy, ModelError, ReplyError
+from adhoc.core.replies import Reading, ReplyFormat
 from adhoc.llm.litellm_model import LiteLLMModel
-from adhoc.llm.model import LMRequest
+from adhoc.llm.model import LMRequest, LMResponse
+from adhoc.llm.together import complete_together
+from adhoc.testing.loopback_provider import LoopbackProvider
 from adhoc.testing.model_contract import LanguageModelContract
+from adhoc.testing.provider_faults import Reply
 
 pytestmark = pytest.mark.filterwarnings(
     "ignore::DeprecationWarning", "ignore::ResourceWarning", "ignore::UserWarning"
@@ -24,212 +27,332 @@ pytestmark = pytest.mark.filterwarnings(
 REQUEST = LMRequest(
     (ChatMessage("system", "Be brief."), ChatMessage("user", "Hello")), "generate", max_tokens=50
 )
+SCHEMA = {"type": "object", "properties": {"a": {"type": "integer"}}, "required": ["a"]}
+FORMED = replace(REQUEST, reply=ReplyFormat("answer", SCHEMA, Reading))
 
 
-def completion(content: str | None = '{"a": 1}', finish_reason: str = "stop") -> dict[str, Any]:
-    return {
-        "id": "x",
-        "object": "chat.completion",
-        "created": 1,
-        "model": "small",
-        "choices": [
-            {"index": 0, "finish_reason": finish_reason, "message": {"role": "assistant", "content": content}}
-        ],
-        "usage": {"prompt_tokens": 12, "completion_tokens": 5, "total_tokens": 17},
-    }
-
-
-class Server:
-    """Answers every request with `status` and `body`, and remembers what it was asked."""
-
-    def __init__(self) -> None:
-        self.status = 200
-        self.body: bytes = json.dumps(completion()).encode()
-        self.delay = 0.0
-        self.asked: list[dict[str, Any]] = []
-        self.headers: list[dict[str, str]] = []
-        outer = self
-
-        class Handler(BaseHTTPRequestHandler):
-            def do_POST(self) -> None:
-                length = int(self.headers["Content-Length"])
-                outer.asked.append(json.loads(self.rfile.read(length)))
-                outer.headers.append(dict(self.headers))
-                time.sleep(outer.delay)
-                self.send_response(outer.status)
-                self.send_header("Content-Type", "application/json")
-                self.send_header("Content-Length", str(len(outer.body)))
-                self.end_headers()
-                with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-                    self.wfile.write(outer.body)
-
-            def log_message(self, *_: Any) -> None:
-                pass
-
-        self._http = ThreadingHTTPServer(("127.0.0.1", 0), Handler)
-        self.base = f"http://127.0.0.1:{self._http.server_port}/v1"
-        self._thread = threading.Thread(
-            target=self._http.serve_forever, kwargs={"poll_interval": 0.02}, daemon=True
-        )
-        self._thread.start()
-
-    def answer(self, body: dict[str, Any] | bytes, status: int = 200) -> None:
-        self.status = status
-        self.body = body if isinstance(body, bytes) else json.dumps(body).encode()
-
-    def close(self) -> None:
-        self._http.shutdown()
-        self._http.server_close()
-        self._thread.join()
-
-
-@pytest.fixture(scope="module")
-def shared_server() -> Iterator[Server]:
-    server = Server()
-    yield server
-    server.close()
+@pytest.fixture(autouse=True)
+def _no_keys(monkeypatch: pytest.MonkeyPatch) -> None:
+    for provider in ("OPENAI", "ANTHROPIC"):
+        monkeypatch.delenv(f"{provider}_API_KEY", raising=False)
 
 
 @pytest.fixture
-def server(shared_server: Server, monkeypatch: pytest.MonkeyPatch) -> Server:
-    monkeypatch.delenv("OPENAI_API_KEY", raising=False)
-    shared_server.answer(completion())
-    shared_server.delay = 0.0
-    shared_server.asked.clear()
-    shared_server.headers.clear()
-    return shared_server
+def provider() -> Iterator[LoopbackProvider]:
+    with LoopbackProvider('{"a": 1}') as provider:
+        yield provider
 
 
 @pytest.fixture
-def model(server: Server) -> LiteLLMModel:
-    return LiteLLMModel("openai/small", api_base=server.base, timeout=10)
+def model(provider: LoopbackProvider) -> LiteLLMModel:
+    return LiteLLMModel("openai/small", api_base=provider.url, timeout=10)
+
+
+def formats(provider: LoopbackProvider) -> list[str | None]:
+    return [(call.body.get("response_format") or {}).get("type") for call in provider.calls]
 
 
 class TestContract(LanguageModelContract):
     @pytest.fixture(autouse=True)
-    def _serve(self, server: Server) -> None:
-        self.base = server.base
+    def _serve(self, provider: LoopbackProvider) -> None:
+        self.url = provider.url
 
     def model(self) -> LiteLLMModel:
-        return LiteLLMModel("openai/small", api_base=self.base, timeout=10)
+        return LiteLLMModel("openai/small", api_base=self.url, timeout=10)
 
 
-def test_success_sends_what_was_configured_once(server: Server, model: LiteLLMModel) -> None:
-    response = model.complete(REQUEST)
+def test_success_sends_what_was_configured_once(provider: LoopbackProvider, model: LiteLLMModel) -> None:
+    response = model.complete(FORMED)
     assert response.text == '{"a": 1}'
     assert response.model == model.name == "openai/small"
-    assert (response.usage.prompt_tokens, response.usage.completion_tokens) == (12, 5)
+    assert response.usage.prompt_tokens > 0
+    assert response.usage.completion_tokens > 0
     assert response.usage.cost_usd == 0.0
-    (asked,) = server.asked
-    assert asked["temperature"] == 0.3
-    assert asked["max_tokens"] == 50
-    assert asked["response_format"] == {"type": "json_object"}
-    assert [it["role"] for it in asked["messages"]] == ["system", "user"]
+    assert response.latency_s > 0.0
+    (call,) = provider.calls
+    assert call.body["model"] == "small"
+    assert call.body["temperature"] == 0.3
+    assert call.body["max_tokens"] == 50
+    assert "seed" not in call.body
+    assert call.body["response_format"]["json_schema"]["schema"] == SCHEMA
+    assert [it["role"] for it in call.body["messages"]] == ["system", "user"]
 
 
-def test_a_known_model_has_a_price(server: Server) -> None:
-    body = completion()
-    body["model"] = "gpt-4-1106-preview"
-    server.answer(body)
-    response = LiteLLMModel("gpt-4-1106-preview", api_base=server.base).complete(REQUEST)
-    assert response.usage.cost_usd == pytest.approx(12 * 10e-6 + 5 * 30e-6)
+def test_the_raw_answer_is_json_and_holds_no_header_or_key(
+    model: LiteLLMModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-of-the-test")
+    raw = model.complete(REQUEST).raw
+    assert raw is not None
+    assert raw["choices"][0]["message"]["content"] == '{"a": 1}'
+    assert raw["usage"]["prompt_tokens"] > 0
+    text = json.dumps(raw).lower()
+    assert "sk-of-the-test" not in text
+    assert "content-length" not in text
 
 
-def test_options_reach_the_endpoint(server: Server, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_request_may_differ_from_the_configuration(provider: LoopbackProvider, model: LiteLLMModel) -> None:
+    asked = replace(REQUEST, model="openai/other", temperature=0.0, seed=2**31 + 5, sample=2)
+    assert model.complete(asked).model == "openai/other"
+    body = provider.calls[0].body
+    assert (body["model"], body["temperature"], body["seed"]) == ("other", 0.0, 7)
+
+
+def test_a_known_model_has_a_price_and_a_window(provider: LoopbackProvider) -> None:
+    model = LiteLLMModel("gpt-4-1106-preview", api_base=provider.url)
+    usage = model.complete(REQUEST).usage
+    assert usage.cost_usd == pytest.approx(usage.prompt_tokens * 10e-6 + usage.completion_tokens * 30e-6)
+    assert model.window == 128_000
+    assert LiteLLMModel("openai/small").window is None
+    assert LiteLLMModel("openai/small", window=4096).window == 4096
+
+
+def test_tokens_are_counted_without_a_network() -> None:
+    """In a process of its own, in which every connection fails."""
+    code = """
+import socket
+tried = []
+def refuse(*address, **_):
+    tried.append(address)
+    raise OSError("no network")
+socket.socket.connect = socket.create_connection = socket.getaddrinfo = refuse
+from adhoc.core.chat import ChatMessage
+from adhoc.llm.litellm_model import LiteLLMModel
+for name in ("gpt-4-1106-preview", "gpt-4o", "claude-2", "together_ai/meta-llama/Llama-3-8b", "command-r"):
+    count = LiteLLMModel(name).count_tokens([ChatMessage("user", "hello world " * 50)])
+    assert 100 <= count <= 120, (name, count)
+assert not tried, tried
+"""
+    subprocess.run([sys.executable, "-W", "ignore", "-c", code], check=True, timeout=60)
+
+
+def test_options_reach_the_endpoint(provider: LoopbackProvider, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OPENAI_API_KEY", "sk-of-the-test")
     model = LiteLLMModel(
-        "openai/small", temperature=None, max_tokens=7, api_base=server.base, json_mode=False, name="mine"
+        "openai/small", temperature=None, max_tokens=7, api_base=provider.url, structured="text", name="mine"
     )
-    assert model.complete(REQUEST).model == "mine"
-    assert server.asked[0]["max_tokens"] == 7
-    assert "temperature" not in server.asked[0]
-    assert "response_format" not in server.asked[0]
-    assert server.headers[0]["Authorization"] == "Bearer sk-of-the-test"
+    assert model.complete(FORMED).model == "mine"
+    (call,) = provider.calls
+    assert call.body["max_tokens"] == 7
+    assert "temperature" not in call.body
+    assert "response_format" not in call.body
+    assert call.authorization == "Bearer sk-of-the-test"
 
 
-def test_missing_key_is_found_before_any_call(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delenv("OPENAI_API_KEY", raising=False)
+@pytest.mark.parametrize(
+    ("refuses", "first", "then"),
+    [
+        ((), ["json_schema"], "json_schema"),
+        (("json_schema",), ["json_schema", "json_object"], "json_object"),
+        (("json_schema", "json_object"), ["json_schema", "json_object", None], None),
+    ],
+)
+def test_a_refused_form_gives_way_to_a_freer_one_for_good(
+    refuses: tuple[str, ...], first: list[str | None], then: str | None
+) -> None:
+    with LoopbackProvider('{"a": 1}', refuses=refuses) as provider:
+        model = LiteLLMModel("openai/small", api_base=provider.url, timeout=10)
+        assert model.complete(FORMED).text == '{"a": 1}'
+        assert formats(provider) == first
+        model.complete(FORMED)
+        assert formats(provider) == [*first, then]
+
+
+def test_a_form_that_is_configured_is_kept_to() -> None:
+    with LoopbackProvider('{"a": 1}', refuses=("json_schema",)) as provider:
+        model = LiteLLMModel("openai/small", api_base=provider.url, timeout=10, structured="schema")
+        with pytest.raises(ModelError, match=r"llm\.structured"):
+            model.complete(FORMED)
+        assert formats(provider) == ["json_schema"]
+
+
+def test_a_refusal_of_something_else_changes_no_form(provider: LoopbackProvider, model: LiteLLMModel) -> None:
+    provider.fail_next("400*3")
+    with pytest.raises(ModelError, match="request was refused"):
+        model.complete(FORMED)
+    model.complete(FORMED)
+    assert formats(provider) == ["json_schema", "json_object", None, "json_schema"]
+
+
+def test_the_paper_s_model_is_asked_for_json_without_a_schema(provider: LoopbackProvider) -> None:
+    LiteLLMModel("gpt-4-1106-preview", api_base=provider.url).complete(FORMED)
+    assert formats(provider) == ["json_object"]
+
+
+def test_any_text_is_asked_for_without_a_form(provider: LoopbackProvider, model: LiteLLMModel) -> None:
+    model.complete(REQUEST)
+    assert formats(provider) == [None]
+
+
+def test_an_empty_key_is_a_missing_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", " ")
+    with pytest.raises(ModelError, match=r"needs the environment variable OPENAI_API_KEY"):
+        LiteLLMModel("gpt-4-1106-preview").complete(REQUEST)
+
+
+def test_missing_key_is_found_before_any_call() -> None:
     with pytest.raises(ModelError, match=r"OPENAI_API_KEY.*llm=offline") as caught:
         LiteLLMModel("gpt-4-1106-preview").complete(REQUEST)
     assert not isinstance(caught.value, ModelBusy)
 
 
 def test_unknown_model_is_named(capsys: pytest.CaptureFixture[str]) -> None:
+    model = LiteLLMModel("no-such-model")
     with pytest.raises(ModelError, match=r"no-such-model.*PROVIDER/NAME"):
-        LiteLLMModel("no-such-model").complete(REQUEST)
+        model.complete(REQUEST)
+    assert model.window is None
     assert capsys.readouterr().out == ""
 
 
+def test_a_key_of_another_provider_is_refused_and_not_shown(
+    provider: LoopbackProvider, model: LiteLLMModel, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", "xyz-of-another-provider")
+    message = "Incorrect key: xyz-of-another-provider or sk-proj-****wxyz. Bearer abcdefghijkl"
+    body = json.dumps({"error": {"message": message, "code": "invalid_api_key"}}).encode()
+    monkeypatch.setattr(provider, "serve", lambda *_: Reply(body, 401))
+    with pytest.raises(ModelError, match=r"key was refused.*OPENAI_API_KEY") as caught:
+        model.complete(REQUEST)
+    assert "Incorrect key: [key] or [key] [key]" in str(caught.value)
+
+
 @pytest.mark.parametrize(
-    ("status", "code", "error", "words"),
+    ("fault", "error", "words"),
     [
-        (401, "invalid_api_key", ModelError, "key was refused"),
-        (403, "forbidden", ModelError, "key was refused"),
-        (404, "model_not_found", ModelError, "does not know"),
-        (400, "bad", ModelError, "request was refused"),
-        (429, "insufficient_quota", ModelError, "quota"),
-        (429, "rate_limit_exceeded", ModelBusy, "rate limit"),
-        (500, "server_error", ModelBusy, "has a fault"),
-        (503, "server_error", ModelBusy, "has a fault"),
-        (400, "context_length_exceeded", ReplyError, "context window"),
+        ("401", ModelError, "key was refused"),
+        ("403", ModelError, "key was refused"),
+        ("404", ModelError, "does not know"),
+        ("400", ModelError, "request was refused"),
+        ("quota", ModelError, "add credit"),
+        ("overflow", ModelError, r"context window; set llm\.window"),
+        ("429", ModelBusy, "rate limit"),
+        ("500", ModelBusy, "has a fault"),
+        ("503", ModelBusy, "has a fault"),
+        ("html502", ModelBusy, "has a fault"),
+        ("drop", ModelBusy, "has a fault"),
+        ("truncated", ModelBusy, "has a fault"),
+        ("html", ModelError, "not with chat completions"),
+        ("foreign", ModelError, "not with chat completions"),
     ],
 )
 def test_refusals(
-    server: Server, model: LiteLLMModel, status: int, code: str, error: type[Exception], words: str
+    provider: LoopbackProvider, model: LiteLLMModel, fault: str, error: type[Exception], words: str
 ) -> None:
-    message = "This model's maximum context length is 10 tokens" if "context" in code else code
-    server.answer({"error": {"message": message, "type": code, "code": code, "param": None}}, status)
+    provider.fail_next(fault)
     with pytest.raises(error, match=words) as caught:
         model.complete(REQUEST)
-    assert type(caught.value) is error
-    assert "RetryingModel" not in str(caught.value), "the command line has wrapped the model already"
+    assert isinstance(caught.value, ModelBusy) is (error is ModelBusy)
     assert ("try again later" in str(caught.value)) is (error is ModelBusy)
-    assert len(server.asked) == 1
+    assert len(provider.calls) == 1
 
 
-def test_refused_connection(server: Server) -> None:
-    idle = Server()
-    base = idle.base
-    idle.close()
-    with pytest.raises(ModelError, match="cannot be reached") as caught:
-        LiteLLMModel("openai/small", api_base=base, timeout=5).complete(REQUEST)
+@pytest.mark.parametrize(("fault", "seconds"), [("429:7", 7.0), ("429:0.5", 0.5), ("429", None)])
+def test_the_provider_s_wait_is_told(
+    provider: LoopbackProvider, model: LiteLLMModel, fault: str, seconds: float | None
+) -> None:
+    provider.fail_next(fault)
+    with pytest.raises(ModelBusy) as caught:
+        model.complete(REQUEST)
+    assert caught.value.retry_after == seconds
+    assert caught.value.rate_limited
+
+
+@pytest.mark.parametrize("fault", ["html", "foreign", "drop"])
+def test_what_worked_before_and_fails_now_is_an_outage(
+    provider: LoopbackProvider, model: LiteLLMModel, fault: str
+) -> None:
+    model.complete(REQUEST)
+    provider.fail_next(fault)
+    with pytest.raises(ModelBusy, match="try again later"):
+        model.complete(REQUEST)
+
+
+def test_nobody_there_is_a_mistake_at_first_and_an_outage_later() -> None:
+    with LoopbackProvider("x") as provider:
+        model = LiteLLMModel("openai/small", api_base=provider.url, timeout=5)
+        model.complete(REQUEST)
+    with pytest.raises(ModelBusy):
+        model.complete(REQUEST)
+    with pytest.raises(ModelError, match=r"cannot be reached; check llm\.api_base") as caught:
+        LiteLLMModel("openai/small", api_base=provider.url, timeout=5).complete(REQUEST)
     assert not isinstance(caught.value, ModelBusy)
-    assert base in str(caught.value)
+    assert provider.url in str(caught.value)
 
 
-def test_timeout(server: Server) -> None:
-    server.delay = 1.0
-    with pytest.raises(ModelBusy, match="in time"):
-        LiteLLMModel("openai/small", api_base=server.base, timeout=0.2).complete(REQUEST)
+@pytest.mark.parametrize("api_base", ["127.0.0.1:1/v1", "http://no-such-host.invalid/v1", "nonsense"])
+def test_an_address_that_is_none(api_base: str) -> None:
+    with pytest.raises(ModelError, match=r"llm\.api_base") as caught:
+        LiteLLMModel("openai/small", api_base=api_base, timeout=5).complete(REQUEST)
+    assert not isinstance(caught.value, ModelBusy)
+
+
+def test_timeout() -> None:
+    with (
+        LoopbackProvider("x", faults="silence:30") as provider,
+        pytest.raises(ModelBusy, match=r"in time; raise llm\.timeout"),
+    ):
+        LiteLLMModel("openai/small", api_base=provider.url, timeout=0.2).complete(REQUEST)
 
 
 @pytest.mark.parametrize(
-    ("body", "outcome"),
-    [
-        ({**completion(), "choices": []}, "empty"),
-        (completion(None), "empty"),
-        (completion(""), "empty"),
-        (completion('{"a": ', "length"), "truncated"),
-    ],
+    ("fault", "outcome"),
+    [("no_choices", "empty"), ("null", "empty"), ("empty", "empty"), ("length", "truncated")],
 )
-def test_useless_answers(server: Server, model: LiteLLMModel, body: dict[str, Any], outcome: str) -> None:
-    server.answer(body)
+def test_useless_answers_are_errors_and_were_paid_for(
+    provider: LoopbackProvider, model: LiteLLMModel, fault: str, outcome: str
+) -> None:
+    provider.fail_next(fault)
     with pytest.raises(ReplyError) as caught:
         model.complete(REQUEST)
     assert caught.value.outcome == outcome
+    assert isinstance(caught.value.response, LMResponse)
+    assert caught.value.response.usage.prompt_tokens > 0
 
 
+@pytest.mark.parametrize("has_answered", [False, True])
 @pytest.mark.parametrize(
-    "body", [b'{"choices": [{', b"<html>Bad gateway</html>", b"[]", b'{"unexpected": 1}']
+    "body",
+    [
+        b'{"choices": [{',
+        b"[]",
+        b"null",
+        b"3",
+        b'"text"',
+        b'{"choices": "x"}',
+        b'{"choices": [{"message": null}]}',
+        b'{"choices": [{"message": {"content": 5}}]}',
+        b'{"choices": [null]}',
+        b"\xff\xfe\x00",
+        b"",
+    ],
 )
-def test_malformed_bodies_are_the_library_s_errors(server: Server, model: LiteLLMModel, body: bytes) -> None:
-    server.answer(body)
-    with pytest.raises((ReplyError, ModelBusy)) as caught:
+def test_malformed_bodies_are_the_library_s_errors(
+    provider: LoopbackProvider,
+    model: LiteLLMModel,
+    body: bytes,
+    has_answered: bool,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    if has_answered:
+        model.complete(REQUEST)
+    monkeypatch.setattr(provider, "serve", lambda *_: Reply(body))
+    with pytest.raises((ReplyError, ModelError)) as caught:
         model.complete(REQUEST)
     assert "openai/small" in str(caught.value)
 
 
-@pytest.mark.parametrize("arguments", [{"timeout": 0}, {"max_tokens": 0}])
-def test_impossible_numbers_are_refused(arguments: dict[str, Any]) -> None:
+def test_questions_go_out_together_and_come_back_in_order() -> None:
+    with LoopbackProvider(delay=lambda number: 0.02 * (6 - number)) as provider:
+        model = LiteLLMModel("openai/small", api_base=provider.url, timeout=10)
+        asked = [replace(REQUEST, max_tokens=50 + number) for number in range(6)]
+        answers = complete_together(model, asked)
+    assert len(answers) == 6
+    assert provider.most_at_once > 1
+
+
+@pytest.mark.parametrize(
+    "arguments", [{"timeout": 0}, {"max_tokens": 0}, {"window": 0}, {"structured": "yes"}]
+)
+def test_impossible_arguments_are_refused(arguments: dict[str, Any]) -> None:
     with pytest.raises(ConfigurationError):
         LiteLLMModel("openai/small", **arguments)

@@ -41,15 +41,15 @@ def test_counts_are_kept_per_stage_and_added_up() -> None:
     model = CountingModel(Priced())
     for stage in ("generate", "generate", "reflect"):
         model.complete(LMRequest(REQUEST.messages, stage))
-    model.note_invalid("generate", "empty")
-    model.note_invalid("reflect", "illegal")
-    model.note_repaired("reflect")
+    for stage, outcome in (("generate", "empty"), ("generate", "invalid"), ("reflect", "repaired")):
+        model.note(stage, outcome)
     assert model.name == "priced"
     assert model.stages["generate"].calls == 2
     total = model.total
     assert (total.calls, total.prompt_tokens, total.completion_tokens, total.cost_usd) == (3, 30, 6, 1.5)
-    assert (total.invalid, total.outcomes, total.repaired) == (2, {"empty": 1, "illegal": 1}, 1)
-    model.reset()
+    assert (total.invalid, total.repaired) == (1, 1)
+    assert total.outcomes == {"empty": 1, "invalid": 1, "repaired": 1}
+    model.begin_episode("second", 0)
     assert model.total.calls == 0
 
 
@@ -63,8 +63,8 @@ def test_a_failed_call_is_a_call() -> None:
 def test_wrappers_pass_notes_on() -> None:
     inner = CountingModel(Priced())
     outer = CountingModel(RetryingModel(inner))
-    outer.note_invalid("generate", "empty")
-    outer.note_repaired("generate")
+    outer.note("generate", "invalid")
+    outer.note("generate", "repaired")
     assert (inner.total.invalid, inner.total.repaired) == (1, 1)
 
 

@@ -19,15 +19,16 @@ from adhoc.prompting.library import PromptLibrary, shipped_prompts
 from adhoc.prompting.stage import StageInput
 
 LAYOUT_ORDER = [
-    "## Your state at step 12",
     "## Your capability",
-    "## Rooms",
-    "## Objects in view now",
-    "## Objects detected before",
-    "## Receptacles by room",
-    "## Teammates",
+    "## Capability of the teammates",
     "## Communication messages",
     "## Your memory",
+    "## Receptacles by room",
+    "## Rooms",
+    "## Teammates",
+    "## Your state at step 12",
+    "## Objects in view now",
+    "## Objects detected before",
     "## What to do now",
 ]
 
@@ -101,13 +102,28 @@ def test_template_syntax_in_messages_is_text() -> None:
     assert "{{ 7 * 7 }} {% include 'x' %}" in user(replace(CONTEXT, messages=(message,)))
 
 
+def said(count: int) -> tuple[Message, ...]:
+    return tuple(Message(MessageKind.DETECTION, f"word{it}.", {}, None, "t", it) for it in range(count))
+
+
+def shown(text: str, count: int) -> list[int]:
+    return [it for it in range(count) if f"word{it}." in text]
+
+
 def test_the_earliest_messages_and_events_go_first() -> None:
-    messages = tuple(Message(MessageKind.DETECTION, f"word{it}", {}, None, "t", it) for it in range(9))
     history = tuple(Event(it, f"deed{it}") for it in range(9))
     library = PromptLibrary(max_messages=2, max_history=1)
-    text = user(replace(CONTEXT, messages=messages, history=history), library=library)
-    assert [it for it in range(9) if f"word{it}" in text] == [7, 8]
+    text = user(replace(CONTEXT, messages=said(9), history=history), library=library)
+    assert shown(text, 9) == [7, 8]
     assert [it for it in range(9) if f"deed{it}" in text] == [8]
+    nothing = PromptLibrary(max_messages=0, max_history=0)
+    assert "word8" not in user(replace(CONTEXT, messages=said(9), history=history), library=nothing)
+
+
+@pytest.mark.parametrize(("count", "first"), [(9, 0), (10, 3), (12, 3), (13, 6), (15, 6), (16, 9)])
+def test_the_messages_shown_begin_at_the_same_one_until_a_third_of_them_goes(count: int, first: int) -> None:
+    text = user(replace(CONTEXT, messages=said(count)), library=PromptLibrary(max_messages=9))
+    assert shown(text, count) == list(range(first, count))
 
 
 def test_long_messages_are_cut_off() -> None:
@@ -138,14 +154,12 @@ def test_a_reply_is_listed_once() -> None:
     assert "I am busy." in user(context, "generate"), "without a section of replies it is a message"
 
 
-def test_the_shipped_prompts_carry_forty_messages_of_a_thousand_characters() -> None:
-    messages = tuple(
-        Message(MessageKind.DETECTION, f"word{it} " + "y" * 900 + " end", {}, None, "t", it)
-        for it in range(50)
-    )
-    shown = user(replace(CONTEXT, messages=messages))
-    assert [it for it in range(50) if f"word{it} " in shown] == list(range(10, 50))
-    assert shown.count(' end"') == 40
+def test_the_shipped_prompts_carry_two_hundred_messages_of_a_thousand_characters() -> None:
+    messages = tuple(replace(it, text=f"{it.text} {'y' * 900} end") for it in said(201))
+    text = user(replace(CONTEXT, messages=messages[:200]))
+    assert shown(text, 200) == list(range(200))
+    assert text.count(' end"') == 200
+    assert shown(user(replace(CONTEXT, messages=messages)), 201) == list(range(66, 201))
 
 
 def test_own_messages_are_told_from_those_of_others() -> None:
@@ -161,33 +175,27 @@ def test_own_messages_are_told_from_those_of_others() -> None:
 
 
 @pytest.mark.parametrize(
-    ("capability", "steps_left", "words"),
+    ("capability", "steps_left", "ability", "battery"),
     [
-        (Capability(max_steps=300), 120, "camera height: 1.6 m; battery: 120 steps left; position"),
-        (Capability(max_steps=300), 0, "camera height: 1.6 m; battery: 0 steps left; position"),
-        (Capability(max_steps=300), None, "camera height: 1.6 m; full battery: 300 steps; position"),
-        (None, 120, "- t; capability: unknown; battery: 120 steps left; position"),
-        (None, None, "- t; capability: unknown; position"),
+        (Capability(max_steps=300), 120, "camera height: 1.6 m; full battery: 300 steps\n", "120 steps left"),
+        (Capability(max_steps=300), 0, "camera height: 1.6 m; full battery: 300 steps\n", "0 steps left"),
+        (Capability(max_steps=300), None, "camera height: 1.6 m; full battery: 300 steps\n", "unknown"),
+        (None, 120, "- t; capability: unknown\n", "120 steps left"),
+        (None, None, "- t; capability: unknown\n", "unknown"),
     ],
 )
-def test_a_teammate_s_battery_is_what_is_left(
-    capability: Capability | None, steps_left: int | None, words: str
+def test_what_a_teammate_can_do_stands_apart_from_what_is_left_of_its_battery(
+    capability: Capability | None, steps_left: int | None, ability: str, battery: str
 ) -> None:
-    view = TeammateView("t", capability, steps_left=steps_left)
-    assert words in user(replace(CONTEXT, teammates=(view,)))
+    text = user(replace(CONTEXT, teammates=(TeammateView("t", capability, steps_left=steps_left),)))
+    assert ability in text
+    assert f"- t; battery: {battery}; position: " in text
 
 
-def test_a_prompt_that_is_too_long_loses_messages_then_memory_then_fails() -> None:
-    messages = tuple(
-        Message(MessageKind.DETECTION, f"word{it} " + "y" * 200, {}, None, "t", it) for it in range(16)
-    )
-    context = replace(CONTEXT, messages=messages)
-    whole = sum(len(it.content) for it in shipped_prompts().render("generate", context))
-    text = user(context, library=PromptLibrary(max_characters=whole - 500))
-    assert "word15" in text
-    assert "word7 " not in text
-    with pytest.raises(PromptError, match="max_characters"):
-        user(context, library=PromptLibrary(max_characters=500))
+def test_an_object_that_needs_no_attention_is_listed_briefly() -> None:
+    lines = user().splitlines()
+    assert "- Letter|3; type: Letter; needs attention: no; room: room|1; at: Chair|1 (Chair)" in lines
+    assert any(it.startswith("- Letter|1; ") and "; distance: 1.0 m; mass: 0.2 kg" in it for it in lines)
 
 
 def test_objects_that_need_attention_are_listed_first_and_the_rest_is_counted() -> None:
@@ -220,9 +228,9 @@ def test_a_folder_of_one_s_own_goes_before_the_shipped_templates(tmp_path: Path)
     library = PromptLibrary(folder=tmp_path)
     assert "mine" in library.names
     assert "generate" in library.names
-    assert user(template="mine", library=library).endswith(
-        "## Your memory\n- wiped\n\n## What to do now\nStep 12."
-    )
+    text = user(template="mine", library=library)
+    assert "## Your memory\n- wiped\n\n## Receptacles by room\n" in text
+    assert text.endswith("\n\n## What to do now\nStep 12.")
     assert library.fingerprint != shipped_prompts().fingerprint
 
 
@@ -234,6 +242,38 @@ def test_a_folder_of_one_s_own_goes_before_the_shipped_templates(tmp_path: Path)
         ("{% include '../secret.jinja' %}", "secret"),
         ("{{ ''.__class__.__mro__ }}", "unsafe|__class__"),
         ("{{ examples.update(a=1) }}", "unsafe"),
+        ("{{ me.__init__.__globals__ }}", "unsafe|__init__"),
+        ("{{ lipsum.__globals__ }}", "lipsum"),
+        ("{{ cycler }}", "cycler"),
+        ("{% include '/etc/hostname' %}", "hostname"),
+        ("{% include 'parts/../../secret.jinja' %}", "secret"),
+        ("{% import '../secret.jinja' as secret %}", "secret"),
+        ("{% include 'bad.jinja' %}", "cannot be filled|recursion"),
+        ("{% for i in range(10**9) %}x{% endfor %}", "range|10"),
+        ("{% for i in range(99999) %}x{% endfor %}", "more than 1000 numbers"),
+        (
+            "{% for i in range(999) %}{% for j in range(999) %}{{ i }}{% for k in range(9) %}xxx{% endfor %}"
+            "{% endfor %}{% endfor %}",
+            "more than 4000000 characters",
+        ),
+        ("{{ 'x' * 10**9 }}", "is for numbers up to"),
+        ("{{ 9 ** 9 ** 9 }}", "is for numbers up to"),
+        ("{{ 'x'.ljust(10000000000) }}", "unsafe"),
+        ("{{ '%9999999999d' | format(1) }}", "format"),
+        ("{{ 'x' | center(9999999999) }}", "center"),
+        ("{% set x = 'xx' %}" + "{% set x = x ~ x %}" * 40, "more than 4000000 characters"),
+        ("{% set x = 'xx' %}" + "{% set x = x + x %}" * 40, "more than 4000000 characters"),
+        ("{% set x = [1] %}" + "{% set x = x + x %}" * 40, "more than 4000000 characters"),
+        ("{% set x = range(999) | join('xxxxxxxx') %}{{ range(999) | join(x) }}", "more than 4000000 charac"),
+        ("{{ '%9999999999d' % 1 }}", "is for numbers up to"),
+        ("{{ 'x'.join(range(999) | map('string')) }}", "unsafe"),
+        ("{{ 'xx'.replace('x', 'xx') }}", "unsafe"),
+        ("{{ 'xx' | replace('x', 'xx') }}", "replace"),
+        ("{{ [1] | tojson(9999999999) }}", "tojson"),
+        ("{{ [1, 2] | random }}", "random"),
+        ("{% macro m() %}{{ m() }}{% endmacro %}{{ m() }}", "recursion"),
+        ("{{ 1 / 0 }}", "division by zero"),
+        ("{{ 'x' + 1 }}", "cannot be filled"),
     ],
 )
 def test_bad_templates_are_prompt_errors(tmp_path: Path, source: str, words: str) -> None:
@@ -245,8 +285,62 @@ def test_bad_templates_are_prompt_errors(tmp_path: Path, source: str, words: str
         PromptLibrary(folder=folder).render("bad", CONTEXT)
 
 
+def test_usual_expressions_are_filled(tmp_path: Path) -> None:
+    (tmp_path / "mine.jinja").write_text(
+        "{{ [me.step, me.step + 1, me.step % 5] | join(', ') }}; {{ 'a' ~ 1 ~ 'b' }}; {{ ['x'] + ['y'] }}; "
+        "{{ range(3) | join }}; {{ 'x' + 'y' | upper }}",
+        encoding="utf-8",
+    )
+    text = PromptLibrary(folder=tmp_path).render("mine", CONTEXT)[0].content
+    assert text == "12, 13, 2; a1b; ['x', 'y']; 012; xY"
+
+
 def test_missing_things_are_named(tmp_path: Path) -> None:
     with pytest.raises(PromptError, match=r"no_such.*generate"):
         shipped_prompts().render("no_such", CONTEXT)
     with pytest.raises(PromptError, match="nowhere"):
         PromptLibrary(folder=tmp_path / "nowhere")
+
+
+@pytest.mark.parametrize("link", ["parts/memory.jinja", "generate.jinja", "unused.jinja"])
+def test_a_link_does_not_lead_out_of_a_folder(tmp_path: Path, link: str) -> None:
+    """Folders of others, as archives and repositories hold them, may have links to anything."""
+    secret = tmp_path / "secret"
+    secret.write_text("the key is 1234", encoding="utf-8")
+    folder = tmp_path / "prompts"
+    (folder / "parts").mkdir(parents=True)
+    (folder / link).symlink_to(secret)
+    library = PromptLibrary(folder=folder)
+    with pytest.raises(PromptError, match="leads out of the folder"):
+        library.check("generate")
+
+
+def test_a_linked_directory_does_not_lead_out_of_a_folder(tmp_path: Path) -> None:
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "secret.jinja").write_text("the key is 1234", encoding="utf-8")
+    folder = tmp_path / "prompts"
+    folder.mkdir()
+    (folder / "parts").symlink_to(tmp_path / "elsewhere")
+    (folder / "mine.jinja").write_text("{% include 'parts/secret.jinja' %}", encoding="utf-8")
+    with pytest.raises(PromptError, match="leads out of the folder"):
+        PromptLibrary(folder=folder).render("mine", CONTEXT)
+
+
+def test_a_folder_may_itself_be_a_link(tmp_path: Path) -> None:
+    (tmp_path / "real").mkdir()
+    (tmp_path / "real" / "mine.jinja").write_text("Step {{ me.step }}.", encoding="utf-8")
+    (tmp_path / "link").symlink_to(tmp_path / "real")
+    assert PromptLibrary(folder=tmp_path / "link").render("mine", CONTEXT)[0].content == "Step 12."
+
+
+def test_only_what_the_fingerprint_covers_is_a_template(tmp_path: Path) -> None:
+    (tmp_path / "part.txt").write_text("a part", encoding="utf-8")
+    (tmp_path / "mine.jinja").write_text("{% include 'part.txt' %}", encoding="utf-8")
+    with pytest.raises(PromptError, match=r"part\.txt"):
+        PromptLibrary(folder=tmp_path).render("mine", CONTEXT)
+
+
+def test_a_template_that_is_no_text_is_an_error_at_once(tmp_path: Path) -> None:
+    (tmp_path / "unused.jinja").write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(PromptError, match=r"unused\.jinja.* cannot be read"):
+        PromptLibrary(folder=tmp_path).check("generate")

@@ -1,14 +1,13 @@
 """Compressed JSON lines with a header and a checksum in every line; equal contents give equal bytes.
 
-The first line is the header: `format` and `version` say what the file is. Every line, the header too, ends
-with `"crc"`, the CRC-32 of the bytes before it as eight hexadecimal digits.
+The first line is the header: `format` and `version` say what the file is. Every line, the header too, is one
+of `core.line_checksum`.
 """
 
 from __future__ import annotations
 
 import gzip
 import io
-import json
 import os
 import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -18,12 +17,11 @@ from pathlib import Path
 from typing import Any
 
 from adhoc.core.errors import AssetError, DatasetError, HouseError
+from adhoc.core.line_checksum import checked_line, is_intact
 from adhoc.houses.house_files import Document, decode
 from adhoc.houses.json_fields import Fields
 
 COMPRESSION = 9
-_MARK = b',"crc":"'
-_TAIL = len(_MARK) + 8 + len(b'"}')
 FIRST_ROW = 2
 """The line of the first row; the header is line 1."""
 
@@ -50,7 +48,7 @@ def write_checked(
 ) -> None:
     """Write a header and rows of JSON values; the file is there whole or not at all."""
     first = {"format": kind, "version": version, **header}
-    write_compressed(path, b"".join(_encoded(line) for line in (first, *rows)))
+    write_compressed(path, b"".join(checked_line(line) for line in (first, *rows)))
 
 
 def read_checked(path: Path, kind: str, version: int) -> CheckedLines:
@@ -64,7 +62,7 @@ def read_checked(path: Path, kind: str, version: int) -> CheckedLines:
     if lines.pop():
         raise DatasetError(f"{path}, line {len(lines) + 1}: the line is cut off; the file is damaged")
     for number, line in enumerate(lines, start=1):
-        if not _is_intact(line):
+        if not is_intact(line):
             raise DatasetError(
                 f"{path}, line {number}: the checksum ('crc') does not fit the line; the file is damaged"
             )
@@ -108,21 +106,6 @@ def dataset_errors() -> Iterator[None]:
         yield
     except (HouseError, AssetError) as error:
         raise DatasetError(str(error)) from error
-
-
-def canonical(value: Mapping[str, Any]) -> bytes:
-    """A JSON object in the one way in which this library writes it on a line."""
-    return json.dumps(value, separators=(",", ":"), allow_nan=False).encode()
-
-
-def _encoded(line: Mapping[str, Any]) -> bytes:
-    body = canonical(line)[:-1]
-    return body + _MARK + f"{zlib.crc32(body):08x}".encode() + b'"}\n'
-
-
-def _is_intact(line: bytes) -> bool:
-    body, tail = line[:-_TAIL], line[-_TAIL:]
-    return tail == _MARK + f"{zlib.crc32(body):08x}".encode() + b'"}'
 
 
 def _decoded(line: bytes, where: str) -> Fields:

@@ -8,10 +8,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 from adhoc.core.errors import ConfigurationError, DatasetError, WorldError
+from adhoc.core.line_checksum import canonical
 from adhoc.core.streams import derive_seed
 from adhoc.dataset.checks.gravity import check_gravity
 from adhoc.dataset.checks.house_checks import Violation
-from adhoc.dataset.files.checked_lines import canonical
 from adhoc.dataset.files.dataset_folder import house_hash
 from adhoc.dataset.files.task_file import StoredTask
 from adhoc.dataset.files.task_scenario import task_of

@@ -125,3 +125,7 @@ class Facts(NamedTuple):
     current_steps: tuple[str, ...] = ()
     current_arguments: Mapping[str, tuple[str, str]] = {}
     """Name of each parameter of the current sub-task: its kind and its value."""
+    asked_category: str | None = None
+    """The type of object whose places are asked for, among `receptacle_types` and `room_types`."""
+    receptacle_types: tuple[str, ...] = ()
+    room_types: tuple[str, ...] = ()

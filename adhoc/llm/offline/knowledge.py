@@ -35,6 +35,15 @@ class Knowledge:
             ),
         )
 
+    def belongs(self, facts: Facts) -> dict[str, list[str]]:
+        """Where things of the asked category belong: room types by receptacle type, of those in the prompt,
+        the likeliest receptacle type first."""
+        found: dict[str, list[str]] = {}
+        for place in self._places.get(facts.asked_category or "", ()):
+            if place.receptacle in facts.receptacle_types and place.room_type in facts.room_types:
+                found.setdefault(place.receptacle, []).append(place.room_type)
+        return found
+
 
 def usable_receptacles(
     facts: Facts, thing: str, category: str, room_type: str | None

@@ -46,6 +46,7 @@ def read_prompt(texts: Sequence[str]) -> Facts:
         _split(text, head)
     state = _fields(head.get("your state", ()))
     ability = _fields(head.get("your capability", ()))
+    abilities = {_id(line): line for line in _entries(head.get("capability of the teammates", ()))}
     current = head.get("current sub-task", [])
     course = _fields(current)
     return Facts(
@@ -73,7 +74,9 @@ def read_prompt(texts: Sequence[str]) -> Facts:
         ),
         receptacles=_receptacles(head.get("receptacles by room", ())),
         teammates=tuple(
-            _teammate(line) for line in _entries(head.get("teammates", ())) if "; has stopped;" not in line
+            _teammate(line, abilities.get(_id(line), ""))
+            for line in _entries(head.get("teammates", ()))
+            if "; has stopped;" not in line
         ),
         history=tuple(
             EventFact(int(match[1]), match[2])
@@ -91,6 +94,9 @@ def read_prompt(texts: Sequence[str]) -> Facts:
         current=_call(course["sub-task"]) if "sub-task" in course else None,
         current_steps=_steps(course.get("usual course", "")),
         current_arguments=_arguments(current),
+        asked_category=next(iter(_names(head.get("object type", ()))), None),
+        receptacle_types=_names(head.get("receptacle types", ())),
+        room_types=_names(head.get("room types", ())),
     )
 
 
@@ -155,6 +161,11 @@ def _entries(lines: Sequence[str]) -> list[str]:
     return [line for line in lines if line.startswith("- ") and "; " in line]
 
 
+def _names(lines: Sequence[str]) -> tuple[str, ...]:
+    """The lines that are one name each: `- name`."""
+    return tuple(line[2:] for line in lines if line.startswith("- "))
+
+
 def _id(line: str) -> str:
     return line[2 : line.index("; ")]
 
@@ -193,8 +204,8 @@ def _receptacles(lines: Sequence[str]) -> dict[str, tuple[ReceptacleFact, ...]]:
     }
 
 
-def _teammate(line: str) -> TeammateFact:
-    fields = _fields((line,))
+def _teammate(line: str, ability: str) -> TeammateFact:
+    fields = _fields((line, ability))
     sub_task, sub_skill = _known(fields.get("sub-task")), _known(fields.get("sub-skill"))
     return TeammateFact(
         _id(line),

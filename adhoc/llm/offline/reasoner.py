@@ -19,6 +19,7 @@ from adhoc.llm.offline.mistakes import MistakeRates, mistaken
 from adhoc.llm.offline.options import Option, options
 from adhoc.llm.offline.reading import read_prompt
 
+OFFLINE_NAME = "offline (not a language model)"
 _COUNT = re.compile(r"\b(\d+) different\b")
 _CHARACTERS_PER_TOKEN = 4
 
@@ -31,7 +32,8 @@ class OfflineReasoner(LanguageModel):
     names, prefers what needs attention and is near, leaves alone what teammates are at, and follows the
     usual course that the prompt prints. Every stage is a reading of its own prompt: evaluation weighs the
     candidates that it finds there by their effect on the team (`offline.evaluation`), whoever generated them.
-    It makes three kinds of mistakes, as models do.
+    It makes three kinds of mistakes, as models do. None of them is about where things belong: asked for that,
+    it tells its prior knowledge.
 
     Its token counts are a convention: one token per four characters, rounded up. It costs nothing.
 
@@ -69,7 +71,7 @@ class OfflineReasoner(LanguageModel):
     @property
     def name(self) -> str:
         """`offline (not a language model)`: no record may pass it off as one."""
-        return "offline (not a language model)"
+        return OFFLINE_NAME
 
     def complete(self, request: LMRequest) -> LMResponse:
         """See `LanguageModel`. Never fails; a prompt that it cannot read gives an empty JSON object."""
@@ -98,7 +100,13 @@ class OfflineReasoner(LanguageModel):
             return self._generate(facts)
         if '"sub_skill"' in wanted:
             return self._choose_skill(facts)
+        if '"places"' in wanted:
+            return self._place(facts)
         return {}
+
+    def _place(self, facts: Facts) -> dict[str, Any]:
+        places = self._knowledge.belongs(facts).items()
+        return {"places": [{"receptacle": name, "room_types": room_types} for name, room_types in places]}
 
     def _generate(self, facts: Facts) -> dict[str, Any]:
         match = _COUNT.search(facts.instruction)

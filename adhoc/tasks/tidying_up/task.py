@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from importlib import resources
 
@@ -20,7 +20,8 @@ class TidyingUp(Task):
     """The paper's task: put every misplaced object into a reasonable receptacle.
 
     Args:
-        common_sense: Where things belong; the placement statistics of ProcTHOR by default.
+        common_sense: Where things belong, for the robots alone: the referee has its own table. The placement
+            statistics of ProcTHOR by default.
         misplaced_below: An object is called misplaced when the probability that its place is reasonable,
             over the inferred room types, falls below this. The paper decides by common sense alone; a
             robot that has seen half of a room has to weigh what the room may be.
@@ -68,19 +69,36 @@ class TidyingUp(Task):
         """One in-context example per stage."""
         return {stage: _text(f"example_{stage}") for stage in _STAGES}
 
+    @property
+    def common_sense(self) -> CommonSense:
+        """Where things belong, as the robots see it."""
+        return self._common_sense
+
+    def begin_episode(self) -> None:
+        """See `Task`."""
+        self._belongs.clear()
+        super().begin_episode()
+
+    def anticipate(self, records: Iterable[ObjectRecord]) -> None:
+        """Consider all that can be judged at once."""
+        self._common_sense.consider(
+            record.category for record in records if record.room is not None and _holder(record) is not None
+        )
+
     def judge(self, record: ObjectRecord, room_type: Mapping[str, float]) -> bool | None:
         """Whether the object is misplaced, over what its room may be; None while undecided.
 
         An object that belongs nowhere is left alone (None): nobody could put it right.
         """
-        if not record.is_pickupable or record.receptacle_category is None or not room_type:
+        holder = _holder(record)
+        if holder is None or not room_type:
             return None
         if not self._common_sense.places_for(record.category):
             return None
         likely = sum(
             probability
             for kind, probability in room_type.items()
-            if self._is_reasonable(record.category, record.receptacle_category, kind)
+            if self._is_reasonable(record.category, holder, kind)
         )
         if likely < self._misplaced_below:
             return True
@@ -126,6 +144,11 @@ class TidyingUp(Task):
         if key not in self._belongs:
             self._belongs[key] = not self._common_sense.is_misplaced(*key)
         return self._belongs[key]
+
+
+def _holder(record: ObjectRecord) -> str | None:
+    """What kind of thing an object lies on or in; None for furniture, and while it is unknown."""
+    return record.receptacle_category if record.is_pickupable else None
 
 
 @cache

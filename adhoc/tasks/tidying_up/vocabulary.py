@@ -42,7 +42,8 @@ SUB_SKILLS = (
     CallSpec(
         "GoToPoint",
         (Parameter("dx", ParameterKind.NUMBER), Parameter("dy", ParameterKind.NUMBER)),
-        "Navigate to the point (dx, dy) metres away from the current position, along the x and y axes.",
+        "Navigate to the point (dx, dy) metres away from the current position, along the x and y axes; at "
+        "most 6 m.",
     ),
     CallSpec("GoToRoom", (_ROOM,), "Navigate to a known room."),
     CallSpec(

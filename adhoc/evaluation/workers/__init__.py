@@ -1,0 +1,1 @@
+"""Running a comparison in several processes, of which one owns the language model and the run folder."""

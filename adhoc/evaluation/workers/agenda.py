@@ -1,0 +1,86 @@
+"""Which scenarios are still to be run, and by whom; no processes here."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Sequence
+
+from adhoc.core.errors import WorkerError
+
+BEFORE_THE_FIRST_EPISODE = "(before the first episode)"
+
+
+class Agenda:
+    """Hands out scenarios in order. What a worker had when it died is handed out again, first of all.
+
+    Args:
+        deaths: How many workers may die in one episode; the last of them ends the run.
+    """
+
+    def __init__(self, deaths: int) -> None:
+        self._most_deaths = deaths
+        self._deaths: Counter[str] = Counter()
+        self._open: deque[int] | None = None
+        self._held: dict[int, int] = {}
+        self._episodes: dict[int, str] = {}
+        self._dismissed: set[int] = set()
+
+    @property
+    def is_known(self) -> bool:
+        """Whether a worker has told yet what there is to do."""
+        return self._open is not None
+
+    @property
+    def has_work(self) -> bool:
+        """Whether there is something to do that nobody does, as far as is known."""
+        return self._open is None or bool(self._open)
+
+    def fill(self, scenarios: Sequence[str]) -> None:
+        """All scenarios of the run are to be done; later calls change nothing."""
+        if self._open is None:
+            self._open = deque(range(len(scenarios)))
+
+    def next(self, worker: int) -> int | None:
+        """The next scenario, for a worker that is done with the one before; None if there is none."""
+        self._held.pop(worker, None)
+        self._episodes.pop(worker, None)
+        if not self._open:
+            self._dismissed.add(worker)
+            return None
+        self._held[worker] = self._open.popleft()
+        return self._held[worker]
+
+    def is_dismissed(self, worker: int) -> bool:
+        """Whether the worker was told that there is nothing left to do."""
+        return worker in self._dismissed
+
+    def note_episode(self, worker: int, episode: str) -> None:
+        """The worker began this episode of its scenario."""
+        self._episodes[worker] = episode
+        del self._deaths[BEFORE_THE_FIRST_EPISODE]
+
+    def episode(self, worker: int) -> str:
+        """The episode that the worker began last, for error texts."""
+        return self._episodes.get(worker, BEFORE_THE_FIRST_EPISODE)
+
+    def lose(self, worker: int, how: str) -> None:
+        """The worker was killed. Raises WorkerError if too many were in the same episode, or one after the
+        other before they had begun any.
+
+        Args:
+            worker: Which.
+            how: What is known about its death, for the error text.
+        """
+        if self.is_dismissed(worker):
+            return
+        episode = self.episode(worker)
+        position = self._held.pop(worker, None)
+        self._episodes.pop(worker, None)
+        if position is not None and self._open is not None:
+            self._open.appendleft(position)
+        self._deaths[episode] += 1
+        if self._deaths[episode] >= self._most_deaths:
+            raise WorkerError(
+                f"episode {episode!r}: {self._deaths[episode]} worker processes died in it (last: {how}); "
+                "if memory is short, use fewer workers; the same command goes on where it stopped"
+            )
