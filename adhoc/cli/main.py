@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import sys
 import warnings
 from collections.abc import Callable, Sequence
@@ -24,6 +25,8 @@ COMMANDS = {
 }
 """Modules are imported only when their command is used; each has `main(arguments) -> exit code`."""
 
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+"""Troubles of a full disk, which come without the name of a file."""
 USAGE_ERROR = 2
 OUT_OF_BUDGET = 3
 
@@ -50,9 +53,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stderr.write(f"adhoc {command}: error: {error}\n")
             return USAGE_ERROR
         except OSError as error:
-            if error.filename is None:
+            if error.filename is None and error.errno not in FULL:
                 raise
-            sys.stderr.write(f"adhoc {command}: error: {error.filename}: {error.strerror}\n")
+            where = error.filename or "a file could not be written"
+            sys.stderr.write(f"adhoc {command}: error: {where}: {error.strerror}\n")
             return USAGE_ERROR
         except KeyboardInterrupt:
             hint = "the same command goes on where it stopped" if command == "run" else "nothing was finished"

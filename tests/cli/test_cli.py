@@ -1,6 +1,8 @@
 from __future__ import annotations
 
+import errno
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -49,6 +51,22 @@ def records(folder="results"):
 
 
 class TestMain:
+    @pytest.mark.parametrize(("number", "code"), [(errno.ENOSPC, 2), (errno.EFBIG, 2), (errno.EBADF, None)])
+    def test_a_full_disk_is_one_line_and_other_troubles_keep_their_trace(
+        self, monkeypatch, capsys, number, code
+    ):
+        def fail(arguments):
+            raise OSError(number, os.strerror(number))
+
+        monkeypatch.setattr("adhoc.cli.report.main", fail)
+        if code is None:
+            with pytest.raises(OSError, match="Bad file descriptor"):
+                adhoc("report", "x")
+        else:
+            assert adhoc("report", "x") == code
+            told = f"adhoc report: error: a file could not be written: {os.strerror(number)}\n"
+            assert capsys.readouterr().err == told
+
     def test_help_imports_nothing_heavy(self):
         program = (
             "import sys\n"
