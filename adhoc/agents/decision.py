@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from adhoc.core.calls import Call
-from adhoc.core.plans import Candidate, Plan
+from adhoc.core.plans import Candidate, Objection, Plan
 
 
 def decision_trace(plan: Plan, reason: str) -> dict[str, Any]:
@@ -26,9 +27,29 @@ def decision_trace(plan: Plan, reason: str) -> dict[str, Any]:
     }
 
 
+def negotiation_trace(
+    plan: Plan, raised: Sequence[Objection], against: Sequence[Objection], reason: str
+) -> dict[str, Any]:
+    """A decision of a team that plans in turn: what the robot objected to, and what it was objected to."""
+    return {
+        **decision_trace(plan, reason),
+        "objections": [_objection(it) for it in raised],
+        "objected": [_objection(it) for it in against],
+    }
+
+
 def skill_trace(call: Call, fallback: str | None) -> dict[str, Any]:
     """A sub-skill decision as JSON values."""
     return {"chosen": str(call), "fallback": fallback}
+
+
+def _objection(objection: Objection) -> dict[str, Any]:
+    return {
+        "objector": objection.objector,
+        "planner": objection.planner,
+        "sub_task": None if objection.sub_task is None else str(objection.sub_task),
+        "reason": objection.reason,
+    }
 
 
 def _candidate(candidate: Candidate) -> dict[str, Any]:

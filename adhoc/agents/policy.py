@@ -28,12 +28,21 @@ class Turn:
 class Policy(ABC):
     """Decides for one robot from its own observations and the messages it receives, and nothing else."""
 
+    acts_apart: bool = False
+    """Whether `act` asks no robot anything. Robots of which this is true act side by side: what they ask
+    language models in one step goes out together (`llm.side_by_side`)."""
+
     @abstractmethod
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """Begin an episode as the robot `me`. All its randomness comes from
         `core.streams.stream(seed, "agent", me)`.
 
-        `ask` may be called during `act` only.
+        `ask` may be called during `confer` and, unless the robot `acts_apart`, during `act` only.
+        """
+
+    def confer(self, observation: Observation, inbox: Sequence[Message]) -> None:  # noqa: B027
+        """The first part of a step, which all robots go through one after the other before any of them acts:
+        to come to terms, by `ask`. Most robots need none. `act` of the same step is given the same again.
         """
 
     @abstractmethod

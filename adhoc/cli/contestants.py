@@ -18,7 +18,14 @@ from adhoc.evaluation.contender import NO_AD_HOC, Conditions, Contender
 from adhoc.evaluation.metrics import FailedShare
 from adhoc.llm.model import LanguageModel
 from adhoc.llm.team_model import TeamModel
-from adhoc.planning.interfaces import Evaluator, Planner, Reflector, SubSkillPlanner, SubTaskGenerator
+from adhoc.planning.interfaces import (
+    Evaluator,
+    Negotiator,
+    Planner,
+    Reflector,
+    SubSkillPlanner,
+    SubTaskGenerator,
+)
 from adhoc.tasks.task import Task
 from adhoc.worlds.world import World
 
@@ -29,6 +36,7 @@ STAGES: Mapping[str, type] = {
     "evaluator": Evaluator,
     "reflector": Reflector,
     "planner": Planner,
+    "negotiator": Negotiator,
     "sub_skill_planner": SubSkillPlanner,
 }
 """What the stages of the paper must be; stages of other names may be anything."""
@@ -136,11 +144,11 @@ class Components:
 
     def _offer_model_to_task(self) -> LanguageModel:
         self._task_asked_for_model = True
-        return self._model.counting
+        return self._model.model
 
     def _offer_model(self, group: str) -> LanguageModel:
         self._asked_for_model = True
-        model = self._model.counting
+        model = self._model.model
         return TeamModel(model) if group == TEAM else model
 
     @cached_property

@@ -1,8 +1,8 @@
 """The chain of models around a backend, from the configuration of a run.
 
-Outer to inner: counting, caps of the episode, transcript | ledger, caps of the run, retries, backend. What is
-left of the bar belongs to whoever runs episodes; what is right of it exists once in a run, whatever the
-number of workers.
+Outer to inner: gathering, counting, caps of the episode, transcript | ledger, caps of the run, retries,
+backend. What is left of the bar belongs to whoever runs episodes; what is right of it exists once in a run,
+whatever the number of workers.
 """
 
 from __future__ import annotations
@@ -29,6 +29,7 @@ from adhoc.llm.model import LanguageModel
 from adhoc.llm.offline.reasoner import OfflineReasoner
 from adhoc.llm.prices import FREE, Price, PricedModel, listed_price
 from adhoc.llm.retrying import RetryingModel
+from adhoc.llm.side_by_side import GatheringModel
 from adhoc.tasks.placement import placement_table
 
 LLM_OFFERS: Mapping[str, Offer] = {"places": placement_table}
@@ -55,7 +56,10 @@ class LedgerMode(str, Enum):
 class OuterModel:
     """The model as planners see it, and its transcript."""
 
+    model: LanguageModel
+    """To ask."""
     counting: CountingModel
+    """To read what was asked."""
     transcriber: TranscribingModel
 
 
@@ -64,7 +68,8 @@ def outer_model(config: DictConfig, llm: Mapping[str, Any], provider: LanguageMo
     transcriber = TranscribingModel(provider)
     caps = caps_of(config, "episode")
     inner = EpisodeCapModel(transcriber, caps, _price_for(caps, llm, "episode")) if caps else transcriber
-    return OuterModel(CountingModel(EpisodeModel(inner)), transcriber)
+    counting = CountingModel(EpisodeModel(inner))
+    return OuterModel(GatheringModel(counting), counting, transcriber)
 
 
 def provider_model(config: DictConfig, llm: Mapping[str, Any]) -> LanguageModel:

@@ -68,7 +68,8 @@ SubSkill = Call
 class TaskBrief:
     """What planners and prompts need to know of a task: its texts and vocabularies.
 
-    `examples` holds in-context examples per stage (`generate`, `evaluate`, `reflect`, `sub_skill`).
+    `examples` holds in-context examples per stage (`generate`, `evaluate`, `reflect`, `sub_skill`,
+    `negotiate`).
     `fallback` is the safe choice when no candidate survives.
     """
 

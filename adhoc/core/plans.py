@@ -70,6 +70,28 @@ class Candidate:
 
 
 @dataclass(frozen=True)
+class Objection:
+    """What one robot has against another's plan, when a team negotiates."""
+
+    objector: str
+    planner: str
+    """Whose plan it is."""
+    sub_task: Call | None
+    """The plan."""
+    reason: str = ""
+
+
+@dataclass(frozen=True)
+class Proposal:
+    """A robot's word in a negotiation (paper, appendix 'Teammates with the LLM'): what it plans to do, and
+    what it has against the plans that its teammates made before; nothing if it agrees with them."""
+
+    sub_task: Call
+    rationale: str = ""
+    objections: tuple[Objection, ...] = ()
+
+
+@dataclass(frozen=True)
 class Verdict:
     """Whether a candidate is feasible, in the light of the teammates' replies, and why."""
 

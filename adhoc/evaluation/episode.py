@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from functools import partial
+from itertools import groupby
 
-from adhoc.agents.policy import Policy
+from adhoc.agents.policy import Policy, Turn
 from adhoc.core.errors import BudgetReached, ConfigurationError
 from adhoc.core.values import Action, Observation, Pose
 from adhoc.evaluation.channel import Channel
@@ -15,6 +17,7 @@ from adhoc.evaluation.joining import joining_pose
 from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
 from adhoc.evaluation.scenario import Member, Scenario, prepare
 from adhoc.evaluation.trace import Trace
+from adhoc.llm.side_by_side import side_by_side
 from adhoc.tasks.task import Task
 from adhoc.worlds.world import AgentTruth, World
 
@@ -179,12 +182,16 @@ class _Episode:
         self.trace.add_event(self.step, self._truth[planned.name], "joined")
 
     def advance(self) -> None:
-        """One step: every robot that still can acts in turn, then the world moves on."""
+        """One step: the robots that still can confer in turn, then act in turn, then the world moves on."""
         self._channel.begin_step(self.step)
+        able = [name for name in self._policies if name not in self._finished]
+        for name in able:
+            with self._channel.turn_of(name):
+                self._policies[name].confer(self._observations[name], self._channel.inbox(name))
         actions: dict[str, Action] = {}
-        for name, policy in self._policies.items():
-            if name not in self._finished:
-                actions[name] = self._act(name, policy)
+        for apart, group in groupby(able, key=lambda name: self._policies[name].acts_apart):
+            names = list(group)
+            actions.update(self._act_apart(names) if apart else self._act_in_turn(names))
         self._observations = dict(self._world.step(actions))
         self.step += 1
         self.history.add_step(actions, self._channel.log, self._world.fingerprint())
@@ -234,11 +241,22 @@ class _Episode:
         """Everybody looks once all are in place, so that robots placed last are seen as well."""
         self._observations = {name: self._world.observe(name) for name in self._policies}
 
-    def _act(self, name: str, policy: Policy) -> Action:
-        with self._channel.turn_of(name):
-            turn = policy.act(self._observations[name], self._channel.inbox(name))
+    def _act_in_turn(self, names: Sequence[str]) -> Iterator[tuple[str, Action]]:
+        for name in names:
+            with self._channel.turn_of(name):
+                turn = self._turn(name)
+            yield name, self._take(name, turn)
+
+    def _act_apart(self, names: Sequence[str]) -> Iterator[tuple[str, Action]]:
+        turns = side_by_side([partial(self._turn, name) for name in names])
+        return ((name, self._take(name, turn)) for name, turn in zip(names, turns))
+
+    def _turn(self, name: str) -> Turn:
+        return self._policies[name].act(self._observations[name], self._channel.inbox(name))
+
+    def _take(self, name: str, turn: Turn) -> Action:
         self._channel.send(name, turn.outbox)
-        self.trace.add_decision(self.step, name, turn.trace)
+        self.trace.add_decision(self.step, name, turn.trace, of_team=name != self._scenario.newcomer.name)
         return turn.action
 
     def _note_changes(self, actions: Mapping[str, Action]) -> None:

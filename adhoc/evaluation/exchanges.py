@@ -17,8 +17,8 @@ class TranscribingModel(Wrapper):
 
     def __init__(self, inner: LanguageModel) -> None:
         super().__init__(inner)
-        self._exchanges: deque[tuple[int, dict[str, Any]]] = deque(maxlen=MAX_EXCHANGES)
-        """With the number of the sample."""
+        self._exchanges: dict[str, deque[tuple[int, dict[str, Any]]]] = {}
+        """Of each robot, with the number of the sample."""
 
     def complete(self, request: LMRequest) -> LMResponse:
         """See `LanguageModel`."""
@@ -30,16 +30,17 @@ class TranscribingModel(Wrapper):
         self._note(request, response.text)
         return response
 
-    def take(self) -> list[dict[str, Any]]:
-        """The exchanges since the last call, as `{stage, prompt: [{role, content}], reply}`; the latest
-        64 at most. Samples of one question, which are asked for together, are in their own order."""
+    def take(self, agent: str) -> list[dict[str, Any]]:
+        """The robot's exchanges since the last call for it, as `{stage, prompt: [{role, content}], reply}`;
+        the latest 64 at most. Samples of one question, which are asked for together, are in their own order.
+        """
         taken = []
-        for _, together in groupby(self._exchanges, key=lambda entry: entry[1]["stage"]):
+        for _, together in groupby(self._exchanges.pop(agent, ()), key=lambda entry: entry[1]["stage"]):
             taken += [exchange for _, exchange in sorted(together, key=lambda entry: entry[0])]
-        self._exchanges.clear()
         return taken
 
     def _note(self, request: LMRequest, reply: str) -> None:
         prompt = [{"role": message.role, "content": message.content} for message in request.messages]
         exchange = {"stage": request.stage, "prompt": prompt, "reply": reply}
-        self._exchanges.append((request.sample, exchange))
+        of_robot = self._exchanges.setdefault(request.agent, deque(maxlen=MAX_EXCHANGES))
+        of_robot.append((request.sample, exchange))

@@ -229,7 +229,8 @@ def _warnings(records: Sequence[Record], labels: Mapping[Contestant, str]) -> It
     for name, mine in by_name.items():
         invalid, repaired = _total(mine, "llm", "invalid"), _total(mine, "llm", "repaired")
         asked = _asked(mine) or _total(mine, "llm", "calls")
-        decisions, fallbacks = _total(mine, "planning", "sub_tasks"), _total(mine, "planning", "fallbacks")
+        counts = "team_planning" if mine[0]["join_step"] is None else "planning"
+        decisions, fallbacks = _total(mine, counts, "sub_tasks"), _total(mine, counts, "fallbacks")
         parts = [f"{invalid} of {asked} questions to the model got no usable reply"] if invalid else []
         parts += [f"{repaired} of {asked} only when asked again"] if repaired else []
         parts += [f"{fallbacks} of {decisions} decisions fell back to the safe choice"] if fallbacks else []

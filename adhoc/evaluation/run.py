@@ -187,6 +187,7 @@ def make_record(
         "undeliverable": result.undeliverable,
         "llm": llm_field(stages),
         "planning": asdict(result.trace.planning),
+        "team_planning": asdict(result.trace.team_planning),
         "common_sense": judgement_counts(key.conditions.task.common_sense),
         "history_hash": result.history_hash,
         "history": pack_history(result.history) if key.newcomer is None else None,

@@ -85,6 +85,8 @@ class Trace:
     objects_before: Mapping[str, ObjectTruth] = field(default_factory=dict)
     objects_after: Mapping[str, ObjectTruth] = field(default_factory=dict)
     planning: PlanningCounts = field(default_factory=PlanningCounts)
+    """The newcomer's."""
+    team_planning: PlanningCounts = field(default_factory=PlanningCounts)
     dropped: int = 0
     """Messages and decisions that did not fit."""
 
@@ -115,11 +117,11 @@ class Trace:
         place = (math.nan, math.nan) if position is None else position[:2]
         self.events.append(TraceEvent(step, "", "replaced", place, object_id))
 
-    def add_decision(self, step: int, agent: str, trace: Mapping[str, Any]) -> None:
-        """Note what a policy reported of its decision, if anything."""
+    def add_decision(self, step: int, agent: str, trace: Mapping[str, Any], of_team: bool = False) -> None:
+        """Note what a policy, a teammate's or the newcomer's, reported of its decision, if anything."""
         if not trace:
             return
-        self.planning.add(trace)
+        (self.team_planning if of_team else self.planning).add(trace)
         if len(self.decisions) < MAX_DECISIONS:
             self.decisions.append(Decision(step, agent, trace))
         else:

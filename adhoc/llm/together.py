@@ -29,7 +29,7 @@ def complete_together(model: LanguageModel, requests: Sequence[LMRequest]) -> li
         ReplyError: else, the first of these. In either case no call is under way any more, and a bad reply
             to one request keeps no other from being asked.
     """
-    return [_response(answer) for answer in ask_together(model, requests)]
+    return [response_of(answer) for answer in ask_together(model, requests)]
 
 
 def ask_together(model: LanguageModel, requests: Sequence[LMRequest]) -> list[Answer]:
@@ -78,7 +78,8 @@ def _ask(model: LanguageModel, request: LMRequest) -> Answer:
         return error
 
 
-def _response(answer: Answer) -> LMResponse:
+def response_of(answer: Answer) -> LMResponse:
+    """The answer, if it is one. Raises the ReplyError that it is else."""
     if isinstance(answer, ReplyError):
         raise answer
     return answer

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message
-from adhoc.core.plans import Assessment, Candidate, Context, Plan, Verdict
+from adhoc.core.plans import Assessment, Candidate, Context, Objection, Plan, Proposal, Verdict
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,29 @@ class Planner(ABC):
 
         Never raises ReplyError: what the model gets wrong ends in
         `Plan.fallback`. Raises ModelError if the model cannot be used at all."""
+
+
+class Negotiator(ABC):
+    """Speaks for a robot whose team agrees on its sub-tasks (paper, appendix 'Teammates with the LLM')."""
+
+    @abstractmethod
+    def propose(
+        self,
+        context: Context,
+        plans: Mapping[str, Call],
+        objections: Sequence[Objection] = (),
+        changes: Sequence[str] = (),
+    ) -> Proposal:
+        """The robot's next sub-task in the light of the plans that were made before, and what it has against
+        those.
+
+        Args:
+            context: What the robot knows.
+            plans: The sub-task of every member of the team that has one, in the order of planning.
+            objections: What members have against this robot's own plan; it is asked for another one then.
+            changes: What has changed in the team, a sentence each: the paper's adaptive prompts.
+
+        Raises ReplyError if the model gave no sub-task."""
 
 
 class SubSkillPlanner(ABC):

@@ -65,6 +65,12 @@ def describe(context: Context, stage: StageInput, limits: Limits) -> dict[str, A
             (name(it.teammate), _call(it.sub_task, "unknown"), _call(it.sub_skill, "unknown"))
             for it in stage.predictions
         ],
+        "plans": [(name(robot), _call(sub_task)) for robot, sub_task in stage.plans.items()],
+        "objections": [
+            (name(it.objector), _call(it.sub_task), quoted(it.reason, limits.reply_characters))
+            for it in stage.objections
+        ],
+        "changes": [one_line(it, limits.message_characters) for it in stage.changes],
         **{name: value for name, value in subjects.items() if value is not None},
     }
 

@@ -12,9 +12,9 @@ from typing import Any
 
 from adhoc.core.calls import Call, CallSpec, TaskBrief
 from adhoc.core.errors import ReplyError
-from adhoc.core.plans import Candidate, Prediction, Verdict
+from adhoc.core.plans import Candidate, Context, Objection, Prediction, Proposal, Verdict
 from adhoc.core.replies import DUPLICATE, ILLEGAL, UNKNOWN_ID, Fault, Reading
-from adhoc.prompting.clean import one_line
+from adhoc.prompting.clean import name, one_line
 from adhoc.prompting.extract import read_object
 from adhoc.prompting.known import Known
 from adhoc.prompting.read_call import Refusal, read_call, read_number, shown
@@ -74,12 +74,7 @@ def read_scores(text: str, count: int) -> Reading:
 def read_verdict(text: str) -> Reading:
     """Whether the chosen sub-task is feasible, and why."""
     reply = read_object(text)
-    feasible = reply.get("feasible")
-    if isinstance(feasible, str):
-        feasible = _TRUTH.get(feasible.strip().lower())
-    if not isinstance(feasible, bool):
-        raise ReplyError(f'"feasible" must be true or false, not {shown(reply.get("feasible"))}', ILLEGAL)
-    return Reading(Verdict(feasible, _reason(reply)))
+    return Reading(Verdict(_truth(reply, "feasible"), _reason(reply)))
 
 
 def read_sub_skill(text: str, brief: TaskBrief, known: Known, refusal: Refusal | None) -> Reading:
@@ -112,6 +107,42 @@ def read_predictions(text: str, brief: TaskBrief, known: Known) -> Reading:
     if not predictions and known.teammates:
         raise _nothing_left(faults, f"the reply predicts nothing for any of {shown(known.teammates)}")
     return Reading(tuple(predictions.values()), tuple(faults))
+
+
+def read_proposal(
+    text: str, context: Context, known: Known, plans: Mapping[str, Call], refusal: Refusal | None
+) -> Reading:
+    """A robot's own sub-task and its objections to plans of others, as a `Proposal`.
+
+    Objections to what nobody planned, and second ones to one plan, are dropped, each with a fault. Whoever
+    says that it agrees objects to nothing.
+    """
+    reply = read_object(text)
+    entry = reply.get("sub_task")
+    call = read_call(entry, context.task.sub_tasks, known, "sub-task", refusal)
+    objections: dict[str, Objection] = {}
+    faults: list[Fault] = []
+    planners = {name(robot): robot for robot in plans}
+    disagrees = _truth(reply, "agree") is False
+    for it in _list(reply, "objections") if disagrees and "objections" in reply else ():
+        named = it.get("teammate") if isinstance(it, Mapping) else None
+        planner = planners.get(named.strip()) if isinstance(named, str) else None
+        if planner is None:
+            faults.append(Fault(UNKNOWN_ID, f"{shown(it)} objects to no plan of a teammate"))
+        elif planner in objections:
+            faults.append(Fault(DUPLICATE, f"the plan of {planner} is objected to twice"))
+        else:
+            objections[planner] = Objection(context.me, planner, plans[planner], _reason(it))
+    return Reading(Proposal(call, _reason(entry), tuple(objections.values())), tuple(faults))
+
+
+def _truth(reply: Mapping[str, Any], field: str) -> bool:
+    value = reply.get(field)
+    if isinstance(value, str):
+        value = _TRUTH.get(value.strip().lower())
+    if not isinstance(value, bool):
+        raise ReplyError(f'"{field}" must be true or false, not {shown(reply.get(field))}', ILLEGAL)
+    return value
 
 
 def _call_or_none(

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from adhoc.core.calls import Call
 from adhoc.core.chat import ChatMessage
 from adhoc.core.plans import Context
 from adhoc.core.replies import ReplyFormat
 from adhoc.prompting import parse
+from adhoc.prompting.clean import name
 from adhoc.prompting.known import Known, told_by_teammates
 from adhoc.prompting.read_call import Refusal
 from adhoc.prompting.reply_schema import (
@@ -85,6 +87,27 @@ def predictions_form(prompt: Prompt, context: Context) -> ReplyFormat:
     count = len(known.teammates)
     schema = _reply(prompt, {"predictions": bounded_list(entry, count, count)}, known)
     return ReplyFormat("predictions", schema, lambda reply: parse.read_predictions(reply, brief, known))
+
+
+def proposal_form(
+    prompt: Prompt, context: Context, plans: Mapping[str, Call], refusal: Refusal | None
+) -> ReplyFormat:
+    """One sub-task, and what speaks against the plans of others; read as a `Proposal`."""
+    known, brief = Known(context, prompt), context.task
+    planners = [name(robot) for robot in plans]
+    entry = closed_object(
+        {"teammate": one_of(planners) if planners else text(LONGEST_NAME), "reason": text(REASON)}
+    )
+    properties = {
+        "agree": TRUTH,
+        "objections": bounded_list(entry, 0, max(1, len(planners))),
+        "sub_task": any_call(brief.sub_tasks, known, with_reason=True),
+    }
+    return ReplyFormat(
+        "proposal",
+        _reply(prompt, properties, known),
+        lambda reply: parse.read_proposal(reply, context, known, plans, refusal),
+    )
 
 
 def _reply(prompt: Prompt, properties: Mapping[str, Schema], known: Known | None = None) -> Schema:

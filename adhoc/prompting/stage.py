@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message
-from adhoc.core.plans import Assessment, Candidate, Prediction
+from adhoc.core.plans import Assessment, Candidate, Objection, Prediction
 
 
 @dataclass(frozen=True)
@@ -27,3 +28,9 @@ class StageInput:
     """The sub-task whose next sub-skill is wanted."""
     last: Assessment | None = None
     """What became of the last sub-skill."""
+    plans: Mapping[str, Call] = field(default_factory=dict)
+    """The sub-tasks that members of the team have planned, by robot, in the order of planning."""
+    objections: tuple[Objection, ...] = ()
+    """What members of the team have against this robot's plan."""
+    changes: tuple[str, ...] = ()
+    """What has changed in the team, a sentence each."""

@@ -45,7 +45,7 @@ class Task(ABC):
 
     @property
     def examples(self) -> Mapping[str, str]:
-        """In-context examples per stage: `generate`, `evaluate`, `reflect`, `sub_skill`."""
+        """In-context examples per stage: `generate`, `evaluate`, `reflect`, `sub_skill`, `negotiate`."""
         return {}
 
     @property

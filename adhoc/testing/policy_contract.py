@@ -73,7 +73,9 @@ class PolicyContract:
         policy.reset("robot", capability, TidyingUp(), seed, lambda message: replies)
         turns = []
         for step in range(steps):
-            turns.append(policy.act(observation, (inbox or self.inbox)(step)))
+            heard = (inbox or self.inbox)(step)
+            policy.confer(observation, heard)
+            turns.append(policy.act(observation, heard))
             observation = world.step({"robot": turns[-1].action})["robot"]
         return turns
 
@@ -130,7 +132,9 @@ class PolicyContract:
         (pose,) = world.free_poses(1, 5)
         policy = type(self).make()
         policy.reset("robot", Capability(), TidyingUp(), 0, lambda message: ())
-        policy.act(world.add_agent("robot", Capability(), pose), ())
+        observation = world.add_agent("robot", Capability(), pose)
+        policy.confer(observation, ())
+        policy.act(observation, ())
         for step in range(len(FOREIGN_PAYLOADS)):
             for question in self.foreign(step):
                 answer = policy.respond(question)

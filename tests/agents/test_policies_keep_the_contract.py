@@ -7,8 +7,10 @@ from adhoc import (
     LLMAgent,
     LLMEvaluator,
     LLMGenerator,
+    LLMNegotiator,
     LLMReflector,
     LLMSubSkillPlanner,
+    LLMTeammate,
     OfflineReasoner,
     RandomPolicy,
     StagedPlanner,
@@ -22,6 +24,11 @@ def irot() -> LLMAgent:
     model = OfflineReasoner(placement_table())
     planner = StagedPlanner(LLMGenerator(model), LLMEvaluator(model), LLMReflector(model), TidyingUp().legal)
     return LLMAgent(planner, LLMSubSkillPlanner(model))
+
+
+def llm_teammate() -> LLMTeammate:
+    model = OfflineReasoner(placement_table())
+    return LLMTeammate(LLMNegotiator(model, legal=TidyingUp().legal), LLMSubSkillPlanner(model))
 
 
 class TestRandomPolicy(PolicyContract):
@@ -38,3 +45,7 @@ class TestHeuristicNewcomer(PolicyContract):
 
 class TestLLMAgent(PolicyContract):
     make = staticmethod(irot)
+
+
+class TestLLMTeammate(PolicyContract):
+    make = staticmethod(llm_teammate)

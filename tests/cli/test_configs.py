@@ -14,11 +14,12 @@ from adhoc.cli.build import build, locate, parameters_of
 from adhoc.cli.contestants import Components
 from adhoc.cli.replaced import drop_foreign_settings
 from adhoc.cli.schema import register_schema
+from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.resources import data_dir
 from adhoc.core.values import Pose
 from adhoc.evaluation.benchmark import Benchmark
-from adhoc.llm.model import LanguageModel
+from adhoc.llm.model import LanguageModel, LMRequest
 from adhoc.planning.interfaces import Evaluator, SubTaskGenerator
 from adhoc.worlds.world import World
 
@@ -28,6 +29,8 @@ NEEDED = {
     "llm/litellm": ["llm.model=some-model"],
     "llm/local": ["llm.path=model.gguf"],
     "benchmark/house": ["benchmark.path=house.json"],
+    "team/agent/llm": ["team=llm"],
+    "team/negotiator/llm": ["team=llm"],
 }
 WITH_A_MODEL = {"cot", "gpl", "irot", "naive", "no_subtask_planner"}
 
@@ -116,7 +119,18 @@ def test_all_stages_and_policies_share_one_model(monkeypatch):
     assert newcomer is not None
     assert newcomer.make() is not newcomer.make()
     assert len(Probe.models) == 2 * 3
-    assert {id(model) for model in Probe.models} == {id(newcomer.model)}
+    (shared,) = {id(model): model for model in Probe.models}.values()
+    assert newcomer.model is not None
+    newcomer.model.begin_episode("an episode", 0)
+    shared.complete(LMRequest((ChatMessage("user", "hello"),), "generate"))
+    assert newcomer.model.total.calls == 1
+
+
+def test_what_the_team_asks_is_counted_apart():
+    made = components("team=llm", "policy=none")
+    assert made.conditions.team.model_name == "offline (not a language model)"
+    assert made.conditions.team.settings["llm"]["forget_capability"] == 0.05
+    assert not components("team=heuristic", "policy=none").conditions.team.model
 
 
 VISIBLE = {
@@ -124,6 +138,7 @@ VISIBLE = {
     "policy/generator/gpl": {"n"},
     "policy/planner/staged": {"max_rounds"},
     "policy/agent/llm": {"patience", "pause"},
+    "team/agent/llm": {"adaptive", "rounds", "patience", "pause"},
     "llm/offline": {"seed", "forget_capability", "ignore_teammate", "ignore_reply"},
     "llm/litellm": {"temperature", "timeout", "max_tokens", "api_base", "structured", "window"},
     "llm/local": {"temperature", "max_tokens", "structured", "window", "threads", "at_once", "gpu_layers"},

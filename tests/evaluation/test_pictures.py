@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import matplotlib.image
 import numpy as np
 import pytest
@@ -158,21 +160,24 @@ class TestTranscript:
 
 
 def test_exchanges_are_taken_once_and_bounded():
-    replies = ["one", ReplyError("nothing")] + ["x"] * 100
+    replies = ["one", ReplyError("nothing")] + ["x"] * 102
     model = TranscribingModel(ScriptedModel(replies, name="tiny"))
     request = LMRequest((ChatMessage("user", "question"),), "generate")
     assert model.name == "tiny"
     assert model.complete(request).text == "one"
     with pytest.raises(ReplyError):
         model.complete(request)
-    first, second = model.take()
+    first, second = model.take("")
     assert first == {
         "stage": "generate",
         "prompt": [{"role": "user", "content": "question"}],
         "reply": "one",
     }
     assert "nothing" in second["reply"]
-    assert model.take() == []
+    assert model.take("") == []
     for _ in range(100):
         model.complete(request)
-    assert len(model.take()) == 64
+    assert len(model.take("")) == 64
+    model.complete(replace(request, agent="a"))
+    model.complete(replace(request, agent="b"))
+    assert len(model.take("a")) == len(model.take("b")) == 1

@@ -108,6 +108,7 @@ def talk(asked, invalid, sub_tasks, fallbacks, repaired=0):
     return {
         "llm": {"calls": 1000, "invalid": invalid, "repaired": repaired, "outcomes": outcomes},
         "planning": {"sub_tasks": sub_tasks, "fallbacks": fallbacks},
+        "team_planning": {"sub_tasks": 2 * sub_tasks, "fallbacks": 2 * fallbacks},
     }
 
 
@@ -133,8 +134,9 @@ def test_what_is_not_the_models_doing_is_told_for_each_row():
 
 
 def test_a_team_with_a_model_is_told_of_too():
-    assert make_report([failed("a", **talk(3, 2, 0, 0))]).warnings == (
-        "Heuristic based alone: 2 of 3 questions to the model got no usable reply",
+    assert make_report([failed("a", **talk(3, 2, 5, 1))]).warnings == (
+        "Heuristic based alone: 2 of 3 questions to the model got no usable reply; "
+        "2 of 10 decisions fell back to the safe choice",
     )
 
 

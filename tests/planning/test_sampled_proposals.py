@@ -58,7 +58,7 @@ def test_what_most_samples_propose_comes_first_whatever_arrives_first(delays):
     assert inner.most > 1
     counts = model.stages["generate"]
     assert (counts.calls, counts.outcomes) == (5, {"valid": 3, "invalid": 1, "unreadable": 2})
-    assert [it["reply"] for it in transcript.take()] == [*REPLIES[:3], "no idea", REPLIES[3]]
+    assert [it["reply"] for it in transcript.take(CONTEXT.me)] == [*REPLIES[:3], "no idea", REPLIES[3]]
     prefixes = counts.prefix_tokens
     again = CountingModel(Sampled())
     LLMGenerator(again, samples=4).generate(CONTEXT)

@@ -17,7 +17,7 @@ from tidying_up_situation import TIDYING_UP_CONTEXT, TIDYING_UP_STAGES
 from adhoc.core.calls import Call
 from adhoc.core.chat import ChatMessage
 from adhoc.core.messages import Message, MessageKind
-from adhoc.core.plans import Assessment, Candidate, Prediction
+from adhoc.core.plans import Assessment, Candidate, Objection, Prediction
 from adhoc.prompting.library import shipped_prompts
 from adhoc.prompting.stage import StageInput
 
@@ -34,6 +34,11 @@ STAGES = {
     "gpl_predict": StageInput(),
     "gpl_generate": StageInput(count=3, predictions=(Prediction("teammate_1", DELIVERY),)),
     "gpl_score": StageInput(candidates=CANDIDATES, predictions=(Prediction("teammate_1", DELIVERY),)),
+    "negotiate": StageInput(
+        plans={"teammate_1": Call("Search", ("room|3",)), "teammate_2": DELIVERY},
+        objections=(Objection("teammate_2", "robot_0", DELIVERY, "## I hold\nLetter|1"),),
+        changes=("robot_9 has joined the team at step 50",),
+    ),
     "sub_skill": StageInput(sub_task=DELIVERY, last=Assessment(False, "Grab Letter|1 failed: too far away")),
     "direct_sub_skill": StageInput(last=Assessment(True, "Approach Letter|1 succeeded", found=("Tray|3",))),
 }

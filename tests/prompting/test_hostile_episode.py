@@ -106,8 +106,8 @@ class Recorded(LLMAgent):
         turn = super().act(observation, inbox)
         self.heard = {*getattr(self, "heard", ()), *(message.sender for message in inbox)}
         self.actions = [*getattr(self, "actions", ()), turn.action]
-        if self._sub_task is not None:
-            self.sub_tasks = {*getattr(self, "sub_tasks", ()), self._sub_task}
+        if self._progress.sub_task is not None:
+            self.sub_tasks = {*getattr(self, "sub_tasks", ()), self._progress.sub_task}
         return turn
 
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from adhoc.core.calls import Call
 from adhoc.core.chat import ChatMessage
 from adhoc.core.messages import Message, MessageKind, TeammateView
-from adhoc.core.plans import Assessment, Candidate, Context, Event, Prediction
+from adhoc.core.plans import Assessment, Candidate, Context, Event, Objection, Prediction
 from adhoc.core.values import RoomRecord
 from adhoc.llm.offline.reading import read_prompt
 from adhoc.prompting.library import shipped_prompts
@@ -94,6 +94,9 @@ def stage(call: Call, rationale: str, replies: tuple[Message, ...], found: str =
         (Prediction("teammate_1", call, call),),
         call,
         Assessment(False, rationale, found=(found,)),
+        {found: call},
+        (Objection(found, "robot_0", call, rationale),),
+        (f"{found} has joined the team", rationale),
     )
 
 

@@ -21,6 +21,7 @@ from adhoc.llm.offline.reasoner import OfflineReasoner
 from adhoc.prompting.library import shipped_prompts
 from adhoc.prompting.reply_forms import (
     predictions_form,
+    proposal_form,
     ranking_form,
     scores_form,
     sub_skill_form,
@@ -58,6 +59,7 @@ STAGES = {
     "reflect": StageInput(chosen=CANDIDATES[0]),
     "sub_skill": StageInput(sub_task=CANDIDATES[0].sub_task),
     "direct_sub_skill": StageInput(),
+    "negotiate": StageInput(plans={"teammate_1": CANDIDATES[0].sub_task}),
 }
 
 
@@ -72,6 +74,7 @@ def asked(template: str, context: Context = CONTEXT) -> tuple[tuple[ChatMessage,
         "reflect": lambda: verdict_form(prompt),
         "sub_skill": lambda: sub_skill_form(prompt, context, None),
         "direct_sub_skill": lambda: sub_skill_form(prompt, context, None),
+        "negotiate": lambda: proposal_form(prompt, context, stage.plans, None),
     }
     make = forms.get(template, lambda: sub_tasks_form(prompt, context, stage.count, None))
     return prompt, make()

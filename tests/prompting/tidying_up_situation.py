@@ -91,5 +91,6 @@ TIDYING_UP_STAGES = {
     "evaluate": StageInput(candidates=CANDIDATES),
     "reflect": StageInput(chosen=CANDIDATES[0], replies=(REPLY,)),
     "gpl_generate": StageInput(count=3, predictions=(Prediction("teammate_1", EXPLORE),)),
+    "negotiate": StageInput(plans={"teammate_1": EXPLORE}),
     "sub_skill": StageInput(sub_task=REPLACE, last=Assessment(True, "Explore succeeded", found=("Book_4",))),
 }

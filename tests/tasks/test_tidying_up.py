@@ -40,7 +40,7 @@ def test_vocabulary_is_the_papers(task):
 
 
 def test_brief_carries_an_example_for_every_stage(task):
-    assert set(task.brief().examples) == {"generate", "evaluate", "reflect", "sub_skill"}
+    assert set(task.brief().examples) == {"generate", "evaluate", "reflect", "sub_skill", "negotiate"}
     assert all("Answer: {" in text for text in task.brief().examples.values())
 
 

@@ -121,6 +121,10 @@ class Facts(NamedTuple):
     chosen: CallText | None = None
     replies: tuple[ReplyFact, ...] = ()
     predictions: Mapping[str, CallText] = {}
+    plans: Mapping[str, CallText] = {}
+    """What members of the team have planned, by name, in the order of planning."""
+    objected: frozenset[CallText] = frozenset()
+    """Plans of this robot that members object to."""
     current: CallText | None = None
     current_steps: tuple[str, ...] = ()
     current_arguments: Mapping[str, tuple[str, str]] = {}

@@ -33,6 +33,7 @@ _ROOM_LINE = re.compile(r"- (.+?) \(([^)]*)\): (.*)")
 _RECEPTACLE = re.compile(r"(\S+) \[([^,\]]+), ([\d.]+) m\]")
 _EVENT = re.compile(r"- step (-?\d+): (.*)")
 _CANDIDATE = re.compile(r"- \d+: (.*)")
+_OBJECTION = re.compile(r"- \S+ to ([^:]*):")
 _ARGUMENT = re.compile(r"(\w+) \(([^)]*)\) = ([^;]+)")
 _BECAUSE = " (because: "
 _NOTHING = frozenset({"unknown", "none", "nothing", ""})
@@ -90,7 +91,13 @@ def read_prompt(texts: Sequence[str]) -> Facts:
             (_call(line[2:]) for line in head.get("chosen sub-task", ()) if line.startswith("- ")), None
         ),
         replies=tuple(it for it in map(_reply, head.get("replies to your intention", ())) if it),
-        predictions=_predictions(head.get("predicted plans of the teammates", ())),
+        predictions=_plans(head.get("predicted plans of the teammates", ())),
+        plans=_plans(head.get("plans of the team", ())),
+        objected=frozenset(
+            _call(match[1])
+            for match in map(_OBJECTION.match, head.get("objections to your plan", ()))
+            if match
+        ),
         current=_call(course["sub-task"]) if "sub-task" in course else None,
         current_steps=_steps(course.get("usual course", "")),
         current_arguments=_arguments(current),
@@ -229,7 +236,7 @@ def _reply(line: str) -> ReplyFact | None:
         return ReplyFact(sender, quoted)
 
 
-def _predictions(lines: Sequence[str]) -> dict[str, CallText]:
+def _plans(lines: Sequence[str]) -> dict[str, CallText]:
     fields = {_id(line): _fields((line,)).get("sub-task") for line in _entries(lines)}
     return {teammate: _call(text) for teammate, text in fields.items() if text and text not in _NOTHING}
 

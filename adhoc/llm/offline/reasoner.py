@@ -16,6 +16,7 @@ from adhoc.llm.offline.facts import CallText, Facts, TeammateFact
 from adhoc.llm.offline.judgement import judge
 from adhoc.llm.offline.knowledge import Knowledge
 from adhoc.llm.offline.mistakes import MistakeRates, mistaken
+from adhoc.llm.offline.negotiation import disagreements
 from adhoc.llm.offline.options import Option, options
 from adhoc.llm.offline.reading import read_prompt
 
@@ -96,6 +97,8 @@ class OfflineReasoner(LanguageModel):
             return self._rank(facts)
         if '"feasible"' in wanted:
             return self._reflect(facts)
+        if '"agree"' in wanted:
+            return self._negotiate(facts)
         if '"sub_tasks"' in wanted:
             return self._generate(facts)
         if '"sub_skill"' in wanted:
@@ -132,6 +135,22 @@ class OfflineReasoner(LanguageModel):
     def _reflect(self, facts: Facts) -> dict[str, Any]:
         feasible, reason = judge(facts, self._knowledge)
         return {"analysis": reason, "feasible": feasible, "reason": reason}
+
+    def _negotiate(self, facts: Facts) -> dict[str, Any]:
+        """What speaks against the plans of others, and the best that is left beside those that stand."""
+        against = dict(disagreements(facts))
+        standing = facts._replace(plans={it: call for it, call in facts.plans.items() if it not in against})
+        found = [
+            it for it in options(_as_planned(standing), self._knowledge) if it.call not in facts.objected
+        ]
+        if not found:
+            return {}
+        return {
+            "analysis": "; ".join([*against.values(), _say(found[:1])]),
+            "agree": not against,
+            "objections": [{"teammate": it, "reason": reason} for it, reason in against.items()],
+            "sub_task": {**_call_json(found[0].call), "reason": found[0].reason},
+        }
 
     def _predict(self, facts: Facts) -> dict[str, Any]:
         predictions = []
@@ -185,6 +204,16 @@ def _as_predicted(facts: Facts) -> Facts:
     return facts._replace(
         teammates=tuple(
             it._replace(sub_task=facts.predictions.get(it.name, it.sub_task)) for it in facts.teammates
+        )
+    )
+
+
+def _as_planned(facts: Facts) -> Facts:
+    """The facts with the plans of the team, where the prompt has any, taken for what its members do."""
+    return facts._replace(
+        teammates=tuple(
+            it._replace(sub_task=facts.plans.get(it.name), sub_skill=None) if facts.plans else it
+            for it in facts.teammates
         )
     )
 

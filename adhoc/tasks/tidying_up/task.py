@@ -13,7 +13,7 @@ from adhoc.tasks.placement import PlacementCommonSense
 from adhoc.tasks.task import Task
 from adhoc.tasks.tidying_up.vocabulary import EXPLORE, REPLACE, STOP, SUB_SKILLS, SUB_TASKS
 
-_STAGES = ("generate", "evaluate", "reflect", "sub_skill")
+_STAGES = ("generate", "evaluate", "reflect", "sub_skill", "negotiate")
 
 
 class TidyingUp(Task):
