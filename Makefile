@@ -5,11 +5,23 @@ PYTHON ?= $(shell for name in python3.11 python3.10 python3; do if $$name -c "" 
 BIN := .venv/bin
 export NUMBA_CACHE_DIR := $(CURDIR)/.venv/numba-cache
 
-.PHONY: demo test test-slow stress check format bench clean
+.PHONY: demo tables sensitivity test test-slow stress check format bench clean
 
 demo: .venv/installed
 	$(BIN)/adhoc run -m policy=none,heuristic,irot join_step=0,50 benchmark=demo out=demo
 	$(BIN)/adhoc report demo --markdown demo/table.md
+
+# The paper's tables and its ablation, complete, on 30 tasks with the offline model: about half an hour.
+SWEEP := benchmark=sample join_step=0,50,100 workers=2 pictures=false transcript=false out=tables
+ABLATIONS := no_subtask_planner,irot_no_evaluation_no_reflection,irot_no_evaluation,irot_no_reflection
+tables: .venv/installed
+	$(BIN)/adhoc run -m $(SWEEP) team=heuristic,learned,llm policy=none,random,heuristic,plastic,naive,gpl,cot,irot
+	$(BIN)/adhoc run -m $(SWEEP) team=llm policy=$(ABLATIONS)
+	$(BIN)/adhoc report tables --intervals --markdown tables/tables.md
+
+# How the order of the planners depends on how often the offline model errs: about a quarter of an hour.
+sensitivity: .venv/installed
+	$(BIN)/adhoc sensitivity --out sensitivity workers=2
 
 test: .venv/installed-dev
 	$(BIN)/pytest
@@ -36,6 +48,7 @@ format: .venv/installed-dev
 bench: .venv/installed-dev
 	$(BIN)/python benchmarks/speed.py $(HOUSE)
 	$(BIN)/python benchmarks/episode.py $(HOUSE)
+	$(BIN)/python benchmarks/decisions.py
 	$(BIN)/python benchmarks/dataset.py
 	$(BIN)/python benchmarks/ledger.py
 	$(BIN)/python benchmarks/workers.py
@@ -52,4 +65,4 @@ bench: .venv/installed-dev
 	touch $@ .venv/installed
 
 clean:
-	rm -rf .venv demo out build dist
+	rm -rf .venv demo tables sensitivity out build dist

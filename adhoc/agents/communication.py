@@ -190,12 +190,16 @@ def _read_object(entry: Mapping[str, Any], message: Message) -> ObjectRecord | N
 
 def read_capability(payload: Mapping[str, Any], known: Capability) -> Capability:
     """The fields that have the right type; the others stay as known."""
-    fields = {
+    return replace(known, **capability_fields(payload))
+
+
+def capability_fields(payload: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a capability that have the right type."""
+    return {
         name: payload[name]
         for name, default in vars(Capability()).items()
         if _is_alike(payload.get(name), default)
     }
-    return replace(known, **fields)
 
 
 def _is_alike(value: Any, default: bool | int | float) -> bool:

@@ -9,7 +9,7 @@ from adhoc.agents.body import Body
 from adhoc.agents.decision import skill_trace
 from adhoc.agents.memory import Memory
 from adhoc.agents.progress import Progress
-from adhoc.core.errors import ReplyError
+from adhoc.core.errors import ConfigurationError, ReplyError
 from adhoc.core.plans import Context, Replan
 from adhoc.core.values import Action, ActionName, Capability, Observation
 from adhoc.planning.interfaces import SubSkillPlanner
@@ -36,6 +36,9 @@ class Conduct:
         pause: Steps to wait, looking around, when a new plan leads to no action at once, so that a model
             that keeps proposing the impossible is asked at a bounded rate.
         exchanges: Takes the model calls since it was last asked, for transcripts.
+
+    Raises:
+        ConfigurationError: pause is negative.
     """
 
     def __init__(
@@ -50,6 +53,8 @@ class Conduct:
         pause: int,
         exchanges: Callable[[], list[dict[str, Any]]],
     ) -> None:
+        if pause < 0:
+            raise ConfigurationError(f"pause={pause} must not be negative")
         self._memory, self._body, self._progress = memory, body, progress
         self._task, self._capability, self._planner = task, capability, planner
         self._patience, self._pause, self._exchanges = patience, pause, exchanges
@@ -61,6 +66,11 @@ class Conduct:
     def begin_step(self) -> None:
         """Forget the decisions of the step before."""
         self.skills = []
+
+    @property
+    def looks_around(self) -> bool:
+        """Whether nothing can be planned yet, since no floor was seen."""
+        return not self._memory.perception.rooms and self._looks < len(_LOOK_AROUND)
 
     def act(
         self, now: Observation, context: Callable[[], Context], plan: Callable[[], None] | None = None
@@ -75,7 +85,7 @@ class Conduct:
             return self._stop()
         if now.step < self._progress.rest_until:
             return WAIT
-        if not self._memory.perception.rooms and self._looks < len(_LOOK_AROUND):
+        if self.looks_around:
             self._looks += 1
             return _LOOK_AROUND[self._looks - 1]
         planned = fresh = self._progress.begun_at == now.step
@@ -112,7 +122,7 @@ class Conduct:
         if illegal is not None:
             return self._refuse(illegal)
         self.skills.append({**skill_trace(call, None), "exchanges": self._exchanges()})
-        self._body.begin(call, now, self._progress.focus_room(), self._others())
+        self._body.begin(call, now, self._progress.focus_room(), self._memory.teammates_at())
         self._progress.events.append(f"My sub-skill is now: {call}")
         return True
 
@@ -126,7 +136,3 @@ class Conduct:
             self.stopped = True
             self._progress.events.append("I stop")
         return Action(ActionName.STOP)
-
-    def _others(self) -> tuple[tuple[float, float], ...]:
-        views = self._memory.teammates.values()
-        return tuple(view.position for view in views if view.position is not None and not view.stopped)

@@ -71,7 +71,7 @@ class Crew:
 
         revised = payload["revised"]
         for name, plan in revised.items() if isinstance(revised, Mapping) else ():
-            if self.is_member(name):
+            if self.is_member(name) and message.step >= self._said[name]:
                 self._set(name, plan)
 
     def hear_all(self, inbox: Sequence[Message], step: int) -> None:

@@ -19,6 +19,10 @@ def decision_trace(plan: Plan, reason: str) -> dict[str, Any]:
         "rounds": plan.rounds,
         "candidates": [_candidate(candidate) for candidate in plan.candidates],
         "ranking": [_candidate(candidate) for candidate in plan.ranking],
+        "predictions": [
+            {"teammate": it.teammate, **doing_trace(it.sub_task, it.sub_skill)}
+            for it in dict.fromkeys(it for candidate in plan.candidates for it in candidate.predictions)
+        ],
         "replies": [{"sender": reply.sender, "text": reply.text} for reply in plan.replies],
         "verdicts": [
             {"sub_task": str(candidate.sub_task), "feasible": verdict.feasible, "reason": verdict.reason}
@@ -41,6 +45,17 @@ def negotiation_trace(
 def skill_trace(call: Call, fallback: str | None) -> dict[str, Any]:
     """A sub-skill decision as JSON values."""
     return {"chosen": str(call), "fallback": fallback}
+
+
+def doing_trace(sub_task: Call | None, sub_skill: Call | None) -> dict[str, str | None]:
+    """What a robot is doing at the end of its turn, as JSON values, for `Turn.trace["doing"]`.
+
+    Predictions of others are held against it (`evaluation.predictions`).
+    """
+    return {
+        "sub_task": None if sub_task is None else str(sub_task),
+        "sub_skill": None if sub_skill is None else str(sub_skill),
+    }
 
 
 def _objection(objection: Objection) -> dict[str, Any]:

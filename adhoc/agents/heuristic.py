@@ -10,6 +10,7 @@ from typing import Any
 from adhoc.agents import communication
 from adhoc.agents.assignment import Worker, assign
 from adhoc.agents.body import Body, SkillOutcome, SkillTable
+from adhoc.agents.decision import doing_trace
 from adhoc.agents.memory import Memory
 from adhoc.agents.news import News
 from adhoc.agents.policy import Ask, Policy, Turn
@@ -93,7 +94,7 @@ class HeuristicPolicy(Policy):
         action = self._act()
         self._announce()
         self._memory.remember_sent(self._outbox)
-        return Turn(action, tuple(self._outbox))
+        return Turn(action, tuple(self._outbox), {"doing": doing_trace(self._sub_task, self._body.call)})
 
     def respond(self, message: Message) -> Message | None:
         """A newcomer's `join` is answered by the own state, an `intention` by what is known."""
@@ -133,10 +134,14 @@ class HeuristicPolicy(Policy):
         if record is not None and record.id in self._unable_now():
             return
         if record is None:
-            object_id = assign(self._open_objects(), self._workers(), self._by_hand).get(self._me)
+            object_id = self._choose_object()
             record = None if object_id is None else self._memory.record(object_id)
         if record is not None:
             self._deal_with(record)
+
+    def _choose_object(self) -> str | None:
+        """The object that falls to this robot by the rule of its team, None if none does."""
+        return assign(self._open_objects(), self._workers(), self._by_hand).get(self._me)
 
     def _deal_with(self, record: ObjectRecord) -> None:
         sub_task = self._task.attend(record, self._memory.places_near(record.position))
@@ -176,7 +181,7 @@ class HeuristicPolicy(Policy):
             if self._body.call is None:
                 if self._recipe is None and self._idle:
                     return self._wait()
-                self._body.begin(self._next_skill(), self._now, None, self._roster.positions())
+                self._body.begin(self._next_skill(), self._now, self._focus_room(), self._roster.positions())
             outcome = self._body.act(self._now)
             if isinstance(outcome, Action):
                 return outcome
@@ -187,6 +192,10 @@ class HeuristicPolicy(Policy):
         if self._recipe is None:
             return self._search
         return self._recipe.next_skill(self._memory, self._position)
+
+    def _focus_room(self) -> str | None:
+        """The only room that is explored for now; None for the whole house."""
+        return None
 
     def _finish(self, outcome: SkillOutcome) -> None:
         if self._recipe is None:

@@ -9,7 +9,7 @@ from adhoc.agents import communication
 from adhoc.agents.body import Body, SkillTable
 from adhoc.agents.conduct import Conduct
 from adhoc.agents.context import build_context
-from adhoc.agents.decision import decision_trace
+from adhoc.agents.decision import decision_trace, doing_trace
 from adhoc.agents.memory import Memory
 from adhoc.agents.news import News
 from adhoc.agents.policy import Ask, Policy, Turn
@@ -99,6 +99,7 @@ class LLMAgent(Policy):
             self._trace["skills"] = self._conduct.skills
         self._announce()
         self._memory.remember_sent(self._outbox)
+        self._trace["doing"] = doing_trace(self._progress.sub_task, self._body.call)
         return Turn(action, tuple(self._outbox), self._trace)
 
     def respond(self, message: Message) -> Message | None:

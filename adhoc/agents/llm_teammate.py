@@ -10,7 +10,7 @@ from adhoc.agents.body import Body, SkillTable
 from adhoc.agents.conduct import WAIT, Conduct
 from adhoc.agents.context import build_context
 from adhoc.agents.crew import Crew, plan_message, read_objection
-from adhoc.agents.decision import negotiation_trace
+from adhoc.agents.decision import doing_trace, negotiation_trace
 from adhoc.agents.memory import Memory
 from adhoc.agents.negotiation import Negotiation
 from adhoc.agents.policy import Ask, Policy, Turn
@@ -91,6 +91,7 @@ class LLMTeammate(Policy):
         self._joined: dict[str, str] = {}
         self._broken: dict[str, str] = {}
         self._replanned = -1
+        self._objections: list[Objection] = []
         self._trace: dict[str, Any] = {}
         self._outbox: list[Message] = []
         self._has_begun = False
@@ -109,8 +110,9 @@ class LLMTeammate(Policy):
         self._notice_broken()
         report = self._voice.report(news, self._progress.in_question())
         self._outbox = [] if report is None else [report]
-        if self._has_begun and self._needs_sub_task():
-            self._plan()
+        objections = self._standing_objections()
+        if self._has_begun and (objections or self._needs_sub_task()):
+            self._plan(objections)
             self._negotiation.announce(self._progress.sub_task)
 
     def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
@@ -120,6 +122,7 @@ class LLMTeammate(Policy):
             self._trace["skills"] = self._conduct.skills
         self._announce()
         self._memory.remember_sent(self._outbox)
+        self._trace["doing"] = doing_trace(self._progress.sub_task, self._body.call)
         trace, self._trace = self._trace, {}
         return Turn(action, tuple(self._outbox), trace)
 
@@ -129,7 +132,7 @@ class LLMTeammate(Policy):
             return None
         objection = read_objection(message)
         if objection is not None:
-            return self._reconsider(objection)
+            return self._reconsider(objection, message.step)
         self._crew.hear(message, self._now.step)
         answer = self._voice.answer(message, self._state())
         if message.kind is MessageKind.JOIN and not self._crew.is_member(message.sender):
@@ -148,20 +151,38 @@ class LLMTeammate(Policy):
         """Agree on a sub-task; `objections` are what members have against the one there is."""
         self._taken()  # What was asked meanwhile, such as where things belong, is not of this decision.
         changes = (*self._joined.values(), *self._broken.values())
-        plan, raised = self._negotiation.agree(self._context, objections, changes)
+        keeps = None if objections else self._progress.worth_keeping()
+        plan, raised = self._negotiation.agree(self._context, objections, changes, keeps)
         reason = self._progress.reason if not objections else f"{objections[0].objector} objected"
+        if "decision" in self._trace:
+            self._trace.setdefault("superseded", []).append(self._trace["decision"])
         self._trace["decision"] = negotiation_trace(plan, raised, objections, reason)
         self._trace["decision"]["exchanges"] = self._taken()
         self._progress.begin(self._now.step, plan.sub_task, plan.fallback)
 
-    def _reconsider(self, objection: Objection) -> Message:
-        """Plan again, once a step at most, and answer with the plan."""
-        step, sub_task = self._now.step, self._progress.sub_task
+    def _reconsider(self, objection: Objection, step: int) -> Message | None:
+        """Plan again, once a step at most, and answer with the plan; a robot whose turn in this step is still
+        to come does it then, if the plan still stands."""
+        if not self._crew.is_member(objection.objector):
+            return None
         able = not self._conduct.stopped and self._now.steps_left > 1
-        if able and self._replanned < step and sub_task is not None and sub_task == objection.sub_task:
+        if able and self._replanned < step and self._is_about(objection):
             self._replanned = step
-            self._plan((objection,))
+            if self._now.step < step:
+                self._objections.append(objection)
+            else:
+                self._plan((objection,))
         return plan_message(self._progress.sub_task, not able)
+
+    def _is_about(self, objection: Objection) -> bool:
+        sub_task = self._progress.sub_task
+        return sub_task is not None and sub_task == objection.sub_task
+
+    def _standing_objections(self) -> tuple[Objection, ...]:
+        """Those that were raised before this robot's turn, to a plan that it would go on with."""
+        raised, self._objections = self._objections, []
+        goes_on = self._progress.replan is not Replan.TASK and self._progress.worth_keeping() is not None
+        return tuple(it for it in raised if goes_on and self._is_about(it))
 
     def _notice_broken(self) -> None:
         silent = self._crew.broken(self._now.step)
@@ -196,7 +217,7 @@ class LLMTeammate(Policy):
 
     def _needs_sub_task(self) -> bool:
         able = not self._conduct.stopped and self._now.steps_left > 0
-        waits = self._now.step < self._progress.rest_until
+        waits = self._now.step < self._progress.rest_until or self._conduct.looks_around
         return able and not waits and self._progress.replan is Replan.TASK
 
     def _is_out_of_order(self) -> bool:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from adhoc.agents import communication
+from adhoc.agents.dialects.listening import Listener
 from adhoc.agents.hearsay import Hearsay
 from adhoc.agents.news import News
 from adhoc.core.geometry import planar_distance
@@ -15,6 +16,7 @@ from adhoc.core.plans import Event
 from adhoc.core.values import ObjectRecord, Observation, RoomRecord
 from adhoc.houses.house import FLOOR
 from adhoc.perception.perception import Perception, PerceptionSettings, Sighting
+from adhoc.prompting.fair_share import without_crowding
 from adhoc.tasks.task import Task
 
 
@@ -26,7 +28,8 @@ class Memory:
         task: Judges which objects need attention.
         settings: Of the robot's perception.
         messages_kept: How many messages are kept, sent ones among them. The paper keeps all; once there are
-            more, the earliest fifth goes at once, so that those who read the latest see the same beginning.
+            more, the earliest fifth goes at once, so that those who read the latest see the same beginning;
+            of a robot that talks without end, all but an equal share.
         events_kept: How many of its own events are kept.
         looks: Frames in which an object must be judged to need attention before it does: the first glimpse
             of a half-seen shelf is often wrong.
@@ -54,6 +57,7 @@ class Memory:
         self._suspected: Counter[str] = Counter()
         self._task = task
         self._hearsay = Hearsay()
+        self._listener = Listener()
         self._needs: dict[str, bool] = {}
         self._records: dict[str, tuple[ObjectRecord, ObjectRecord]] = {}
         self._explored: set[str] = set()
@@ -88,11 +92,11 @@ class Memory:
         )
 
     def hear(self, inbox: Sequence[Message]) -> News:
-        """Take in messages: teammates' states, detections and explored rooms."""
+        """Take in messages: teammates' states, detections and explored rooms, in any known dialect."""
         told: list[str] = []
         settled: list[str] = []
         stopped: list[str] = []
-        for message in inbox:
+        for message in self.understand(inbox):
             if message.kind is MessageKind.TEAM:
                 continue
             self._keep(message)
@@ -109,6 +113,10 @@ class Memory:
             for room in self._hearsay.explored_rooms(message):
                 self.perception.tell_explored(room, message.sender)
         return News(settled=tuple(settled), stopped=tuple(stopped), told=tuple(told))
+
+    def understand(self, messages: Iterable[Message]) -> tuple[Message, ...]:
+        """The messages in the library's own format, as far as their dialect is known (see `Listener`)."""
+        return self._listener.understand(messages)
 
     def remember_sent(self, messages: Iterable[Message]) -> None:
         """Remember messages of this robot's own: the paper's M is all that it has sent and received."""
@@ -199,13 +207,20 @@ class Memory:
                 return view.name
         return None
 
+    def teammates_at(self) -> tuple[tuple[float, float], ...]:
+        """Where the teammates that still work are, as far as they have told."""
+        views = self.teammates.values()
+        return tuple(view.position for view in views if view.position is not None and not view.stopped)
+
     def explored_rooms(self) -> list[str]:
         """Ids of the rooms that are explored, by this robot or, as it was told, by others."""
         return sorted(room.id for room in self.perception.rooms.values() if room.explored)
 
     def _keep(self, message: Message) -> None:
         if len(self.messages) >= self._messages_kept:
-            del self.messages[: max(1, self._messages_kept // 5)]
+            fair = without_crowding(self.messages, self.me, self._messages_kept - 1)
+            earliest = max(1, self._messages_kept // 5) if len(fair) == len(self.messages) else 0
+            self.messages = fair[earliest:]
         self.messages.append(message)
 
     def _grasp(self, observation: Observation) -> str | None:

@@ -20,8 +20,9 @@ class Negotiation:
         negotiator: Speaks for the robot.
         crew: What the other members plan.
         ask: Asks them.
-        rounds: How often it may object before it plans. What it still has against others' plans after that
-            is noted and has no effect: a team that cannot agree acts all the same.
+        rounds: How often it may object before it plans; it ends earlier if nobody makes another plan. What it
+            still has against others' plans after that is noted and has no effect: a team that cannot agree
+            acts all the same.
 
     Raises:
         ConfigurationError: rounds is negative.
@@ -34,13 +35,16 @@ class Negotiation:
         self._revised: dict[str, Call] = {}
 
     def agree(
-        self, context: Callable[[], Context], objections: Sequence[Objection], changes: Sequence[str]
+        self,
+        context: Callable[[], Context],
+        objections: Sequence[Objection],
+        changes: Sequence[str],
+        keeps: Call | None,
     ) -> tuple[Plan, tuple[Objection, ...]]:
         """The robot's plan, and what it had against others'.
 
         A robot that is objected to (`objections`) objects to nobody meanwhile. Where the model gives no
-        usable reply, the robot keeps to what it was at, unless that was objected to, and else takes the safe
-        choice.
+        usable reply, the robot keeps to what it was at (`keeps`), and if it cannot, takes the safe choice.
         """
         raised: list[Objection] = []
         self._revised = {}
@@ -53,13 +57,11 @@ class Negotiation:
                     self._negotiator.propose(now, self._crew.plans(now.step), objections, changes)
                 )
                 raised.extend(proposals[-1].objections)
-                if left == 0 or not proposals[-1].objections:
+                if left == 0 or not self._raise_all(proposals[-1].objections, now.step):
                     break
-                for objection in proposals[-1].objections:
-                    self._raise(objection, now.step)
         except ReplyError as error:
             reason = f"no sub-task was proposed ({error.outcome}): {error}"
-            return self._fall_back(context(), proposals, objections, reason), tuple(raised)
+            return _fall_back(context(), proposals, keeps, reason), tuple(raised)
         return _plan(proposals, proposals[-1].sub_task), tuple(raised)
 
     def announce(self, sub_task: Call | None) -> None:
@@ -67,12 +69,18 @@ class Negotiation:
         were made again because of it."""
         self._ask(plan_message(sub_task, revised=self._revised))
 
-    def _raise(self, objection: Objection, step: int) -> None:
+    def _raise_all(self, objections: Sequence[Objection], step: int) -> bool:
+        """Whether anybody made another plan because of the objections."""
+        return sum(self._raise(objection, step) for objection in objections) > 0
+
+    def _raise(self, objection: Objection, step: int) -> bool:
         for answer in self._ask(objection_message(objection)):
             self._crew.hear(answer, step)
         plan = self._crew.plans(step).get(objection.planner)
-        if plan is not None and plan != objection.sub_task:
-            self._revised[objection.planner] = plan
+        if plan is None or plan == objection.sub_task:
+            return False
+        self._revised[objection.planner] = plan
+        return True
 
     def _with_plans(self, context: Context) -> Context:
         """The context in which what members do is what they plan now."""
@@ -80,16 +88,12 @@ class Negotiation:
         views = (replace(it, sub_task=plans.get(it.name, it.sub_task)) for it in context.teammates)
         return replace(context, teammates=tuple(views))
 
-    def _fall_back(
-        self, context: Context, proposals: Sequence[Proposal], objections: Sequence[Objection], reason: str
-    ) -> Plan:
-        """The first proposal if there was one: the robot made it, and nobody minded."""
-        if proposals:
-            return _plan(proposals, proposals[-1].sub_task, reason)
-        keeps = context.sub_task is not None and not objections
-        return _plan(
-            proposals, context.sub_task if keeps and context.sub_task else context.task.fallback, reason
-        )
+
+def _fall_back(context: Context, proposals: Sequence[Proposal], keeps: Call | None, reason: str) -> Plan:
+    """The last proposal if there was one, else what the robot was at, else the safe choice."""
+    if proposals:
+        return _plan(proposals, proposals[-1].sub_task, reason)
+    return _plan(proposals, keeps or context.task.fallback, reason)
 
 
 def _plan(proposals: Sequence[Proposal], sub_task: Call, fallback: str | None = None) -> Plan:

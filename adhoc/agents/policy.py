@@ -32,6 +32,12 @@ class Policy(ABC):
     """Whether `act` asks no robot anything. Robots of which this is true act side by side: what they ask
     language models in one step goes out together (`llm.side_by_side`)."""
 
+    @property
+    def fingerprint(self) -> str:
+        """A hash of what decides its behaviour besides its configuration, such as trained weights; empty if
+        nothing does. Episodes of another fingerprint are not taken for its own."""
+        return ""
+
     @abstractmethod
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """Begin an episode as the robot `me`. All its randomness comes from

@@ -9,6 +9,7 @@ from adhoc.agents.body import Body, SkillOutcome
 from adhoc.agents.memory import Memory
 from adhoc.agents.news import News, merge_news
 from adhoc.core.calls import Call
+from adhoc.core.errors import ConfigurationError
 from adhoc.core.plans import Assessment, Replan
 from adhoc.core.values import ObjectRecord, Observation
 from adhoc.skills.explore import NOTHING_LEFT
@@ -29,9 +30,14 @@ class Progress:
         patience: Failed sub-skills in a row before the sub-task is planned again (the paper re-plans after
             a failure and leaves the number open).
         reason: Why the first sub-task is planned.
+
+    Raises:
+        ConfigurationError: patience is below 1.
     """
 
     def __init__(self, memory: Memory, body: Body, task: Task, patience: int, reason: str) -> None:
+        if patience < 1:
+            raise ConfigurationError(f"patience={patience} must be at least 1")
         self._memory, self._body, self._task, self._patience = memory, body, task, patience
         self._failures = 0
         self.sub_task: Call | None = None
@@ -42,6 +48,7 @@ class Progress:
         self.replan = Replan.TASK
         self.reason = reason
         """Why a sub-task must be planned."""
+        self._given_up = False
         self.begun_at = -1
         """The step in which the sub-task was chosen."""
         self.rest_until = -1
@@ -81,7 +88,7 @@ class Progress:
 
     def begin(self, step: int, sub_task: Call, fallback: str | None) -> None:
         """Go on with this sub-task; `fallback` says why it is the safe choice, if it is."""
-        self.begun_at = step
+        self.begun_at, self._given_up = step, False
         self.sub_task, self.done, self.replan = sub_task, [], Replan.NONE
         self._body.interrupt()
         self._memory.note(f"new sub-task: {sub_task}" + (f" ({fallback})" if fallback else ""))
@@ -101,13 +108,19 @@ class Progress:
         if outcome.failure is None and self.sub_task is not None and self.is_finished():
             self._finish()
         elif assessment.replan is Replan.TASK:
-            self._failures = 0
+            self._failures, self._given_up = 0, True
 
     def refuse_skill(self, reason: str) -> None:
         """No sub-skill was chosen that the robot could begin."""
         self._failures += 1
-        replan = Replan.TASK if self._failures >= self._patience else Replan.SKILL
-        self.take(Assessment(False, reason, replan))
+        self._given_up = self._given_up or self._failures >= self._patience
+        self.take(Assessment(False, reason, Replan.TASK if self._given_up else Replan.SKILL))
+
+    def worth_keeping(self) -> Call | None:
+        """The sub-task, if it is neither over nor given up after failures."""
+        if self.sub_task is None or self._given_up or self.is_finished():
+            return None
+        return self.sub_task
 
     def is_finished(self) -> bool:
         """Whether the task says that the sub-task is over."""

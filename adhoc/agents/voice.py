@@ -42,7 +42,7 @@ class Voice:
 
     def _question(self, message: Message) -> Sequence[Message]:
         self._memory.remember_sent([message])
-        return self._ask(message)
+        return self._memory.understand(self._ask(message))
 
     def state(
         self, observation: Observation, sub_task: Call | None, sub_skill: Call | None, stopped: bool

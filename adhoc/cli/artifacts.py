@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from adhoc.evaluation.contender import EpisodeKey
-from adhoc.evaluation.episode import EpisodeResult
+from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.run import Artifact
 from adhoc.evaluation.transcript import write_transcript

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import MissingMandatoryValue
 
+from adhoc.agents.human.terminal import Terminal
 from adhoc.agents.policy import Policy
 from adhoc.cli.build import Offer, build, is_component
+from adhoc.cli.contender_names import told_apart
 from adhoc.cli.model_chain import OuterModel, hashed_settings, outer_model, provider_model
+from adhoc.cli.seats import SEATS, at_seat, check_seats, numbered_seats
+from adhoc.cli.speech import speaking, without_default_speech
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.benchmark import Benchmark
 from adhoc.evaluation.contender import NO_AD_HOC, Conditions, Contender
+from adhoc.evaluation.imperfections import Imperfections
 from adhoc.evaluation.metrics import FailedShare
 from adhoc.llm.model import LanguageModel
 from adhoc.llm.team_model import TeamModel
@@ -41,6 +47,8 @@ STAGES: Mapping[str, type] = {
 }
 """What the stages of the paper must be; stages of other names may be anything."""
 TEAM = "team"
+SESSIONS = "sessions"
+"""The folder in the run folder for what people typed who played a robot."""
 
 
 class Components:
@@ -58,6 +66,7 @@ class Components:
     def __init__(self, config: DictConfig, provider: LanguageModel | None = None) -> None:
         self._config, self._given_provider = config, provider
         self._asked_for_model = self._task_asked_for_model = False
+        self._fingerprints: dict[str, str] = {}
 
     @cached_property
     def world(self) -> World:
@@ -79,6 +88,10 @@ class Components:
         if self._task_asked_for_model:
             settings["task"].update(hashed_settings(self._config, self._plain("llm")))
             model = self._model.counting
+        imperfections: Imperfections = self._component("imperfections", Imperfections)
+        most = self._largest_team if imperfections.settings else None
+        if most is not None:
+            imperfections.check_seats(most)
         return Conditions(
             task,
             self._contender(TEAM),
@@ -86,6 +99,8 @@ class Components:
             failed_share=self._failed_share,
             settings=settings,
             model=model,
+            imperfections=imperfections,
+            predicted_within=self._config.predicted_within,
         )
 
     @cached_property
@@ -94,33 +109,53 @@ class Components:
         return None if self._plain("policy").get("name") == NO_AD_HOC else self._contender("policy")
 
     def _contender(self, group: str) -> Contender:
-        config = self._plain(group)
-        for field in ("name", "label", AGENT):
-            if field not in config:
-                raise ConfigurationError(f"{group}: field {field!r} is missing in the configuration file")
-        self._asked_for_model = False
-        self._make_policy(group, config)
-        settings, model = config, None
+        config = numbered_seats(self._plain(group), group)
+        _check_fields(config, ("name", "label", AGENT), group)
+        most = self._largest_team if config.get(SEATS) else None
+        if most is not None:
+            check_seats(config, group, most)
+        self._asked_for_model, self._fingerprints = False, {}
+        self._make_policy(group, group, config)
+        for seat in config.get(SEATS, ()):
+            self._make_policy(group, *at_seat(config, group, int(seat)))
+        settings, model = {**without_default_speech(config), **self._fingerprints}, None
         if self._asked_for_model:
-            settings = {**config, **hashed_settings(self._config, self._plain("llm"))}
+            settings = {**settings, **hashed_settings(self._config, self._plain("llm"))}
             model = self._model.counting
-        return Contender(
-            config["name"], config["label"], lambda: self._make_policy(group, config), settings, model
-        )
 
-    def _make_policy(self, group: str, config: Mapping[str, Any]) -> Policy:
-        """A fresh policy with fresh stages; they share the model alone."""
+        def make(seat: int = 0) -> Policy:
+            return self._make_policy(group, *at_seat(config, group, seat))
+
+        name, label = (told_apart(config, group, field) for field in ("name", "label"))
+        return Contender(name, label, make, settings, model)
+
+    @property
+    def _largest_team(self) -> int | None:
+        return self.benchmark.largest_team(self._config.limit)
+
+    def _make_policy(self, group: str, place: str, config: Mapping[str, Any]) -> Policy:
+        """A fresh policy with fresh stages; they share the model alone. `place` is where `config` is."""
+        _check_fields(config, (AGENT,), place)
         offers: dict[str, Offer] = {
             "model": lambda: self._offer_model(group),
             "exchanges": lambda: self._model.transcriber.take,
             "legal": lambda: self._task.legal,
             "legal_skill": lambda: self._task.legal_skill,
+            "sessions": lambda: Path(str(self._config.out)) / SESSIONS,
+            "configured_at": lambda: f"{place}.{AGENT}",
+            "terminal": lambda: self._terminal,
         }
         for name, stage in config.items():
             if name != AGENT and is_component(stage):
-                offers[name] = _stage_offer(stage, f"{group}.{name}", offers, STAGES.get(name))
-        policy: Policy = build(config[AGENT], f"{group}.{AGENT}", offers, Policy)
-        return policy
+                offers[name] = _stage_offer(stage, f"{place}.{name}", offers, STAGES.get(name))
+        policy: Policy = build(config[AGENT], f"{place}.{AGENT}", offers, Policy)
+        if policy.fingerprint:
+            self._fingerprints[f"fingerprint of {place}"] = policy.fingerprint
+        return speaking(policy, config, place)
+
+    @cached_property
+    def _terminal(self) -> Terminal:
+        return Terminal(must_begin=True)
 
     @property
     def _failed_share(self) -> FailedShare:
@@ -169,6 +204,12 @@ class Components:
         if not isinstance(plain, dict):
             raise ConfigurationError(f"{group}={plain!r}: is no configuration group")
         return {str(name): value for name, value in plain.items()}
+
+
+def _check_fields(config: Mapping[str, Any], needed: Sequence[str], place: str) -> None:
+    for field in needed:
+        if field not in config:
+            raise ConfigurationError(f"{place}: field {field!r} is missing in the configuration file")
 
 
 def _stage_offer(

@@ -19,7 +19,9 @@ from adhoc.cli.comparing import run_by_workers, run_here
 from adhoc.cli.config_errors import one_line
 from adhoc.cli.dry_run import dry_run
 from adhoc.cli.model_chain import check_values
+from adhoc.cli.person import asks_person
 from adhoc.cli.replaced import drop_foreign_settings
+from adhoc.cli.run_help import GROUPS
 from adhoc.cli.schema import register_schema
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import AdhocError, ConfigurationError
@@ -30,6 +32,8 @@ from adhoc.evaluation.folder_lock import locked
 from adhoc.evaluation.progress import ConsoleProgress
 
 SWEEP = ("-m", "--multirun")
+SWEPT = (*GROUPS, "join_step", "seed", "max_steps")
+"""Keys whose values are no lists, and that people sweep."""
 
 
 def run_with_hydra(arguments: Sequence[str]) -> None:
@@ -37,6 +41,7 @@ def run_with_hydra(arguments: Sequence[str]) -> None:
 
     Raises AdhocError for whatever is wrong with the input; it ends a sweep.
     """
+    _check_sweep(arguments)
     register_schema()
     _make_importable(Path.cwd())
     failures: list[AdhocError] = []
@@ -74,6 +79,7 @@ def run_with_hydra(arguments: Sequence[str]) -> None:
 def run_config(config: DictConfig) -> None:
     """Run one composed configuration, or estimate what it would ask of a model."""
     _check_numbers(config)
+    live = not asks_person(config)
     if config.dry_run:
         dry_run(config)
         return
@@ -82,7 +88,7 @@ def run_config(config: DictConfig) -> None:
     with locked(config.out):
         folder = RunFolder(config.out)
         try:
-            with ConsoleProgress() as progress:
+            with ConsoleProgress(live=live) as progress:
                 run(config, folder, progress)
         finally:
             _print_costs(config, folder)
@@ -101,6 +107,16 @@ def _print_costs(config: DictConfig, folder: RunFolder) -> None:
         table_console().print(table)
 
 
+def _check_sweep(arguments: Sequence[str]) -> None:
+    """Several values of one key make a sweep, which has to be asked for."""
+    if any(argument in SWEEP for argument in arguments):
+        return
+    for argument in arguments:
+        key, _, value = argument.partition("=")
+        if key in SWEPT and "," in value and value[:1] not in "[{'\"":
+            raise ConfigurationError(f"{argument}: several values need -m: adhoc run -m {argument}")
+
+
 def _make_importable(folder: Path) -> None:
     """Let `_target_` name a module in the folder that the command is given in; installed ones go first."""
     if str(folder) not in sys.path:
@@ -116,6 +132,8 @@ def _check_numbers(config: DictConfig) -> None:
         )
     if config.limit is not None and config.limit < 1:
         raise ConfigurationError(f"limit={config.limit}: must be at least 1")
+    if config.predicted_within < 1:
+        raise ConfigurationError(f"predicted_within={config.predicted_within}: must be at least 1")
     if config.workers < 1:
         raise ConfigurationError(f"workers={config.workers}: must be at least 1")
     check_values(config)

@@ -18,15 +18,22 @@ COMMANDS = {
         "adhoc.cli.run",
         "run episodes: a team alone and with an ad hoc robot (Hydra overrides, -m sweeps)",
     ),
+    "sensitivity": (
+        "adhoc.cli.sensitivity",
+        "how the order of policies depends on the offline reasoner's error rates",
+    ),
     "report": ("adhoc.cli.report", "print the paper's table from the records of runs"),
     "house": ("adhoc.cli.house", "describe a ProcTHOR house file, and draw it"),
     "dataset": ("adhoc.cli.dataset", "make, check and show datasets of houses and tasks"),
+    "train": ("adhoc.cli.train", "train the learned team and other learned policies from nothing"),
     "ledger": ("adhoc.cli.ledger", "show, check, merge and redact recorded calls of language models"),
 }
 """Modules are imported only when their command is used; each has `main(arguments) -> exit code`."""
 
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 """Troubles of a full disk, which come without the name of a file."""
+RESUMABLE = ("run", "train", "sensitivity")
+"""Commands that go on where they stopped."""
 USAGE_ERROR = 2
 OUT_OF_BUDGET = 3
 
@@ -59,7 +66,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             sys.stderr.write(f"adhoc {command}: error: {where}: {error.strerror}\n")
             return USAGE_ERROR
         except KeyboardInterrupt:
-            hint = "the same command goes on where it stopped" if command == "run" else "nothing was finished"
+            hint = (
+                "the same command goes on where it stopped"
+                if command in RESUMABLE
+                else "nothing was finished"
+            )
             sys.stderr.write(f"adhoc {command}: interrupted; {hint}\n")
             return 130
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from adhoc.core.resources import data_dir
 
-GROUPS = ("policy", "team", "task", "world", "benchmark", "llm")
+GROUPS = ("policy", "team", "task", "world", "benchmark", "imperfections", "llm")
 
 USAGE = """\
 usage: adhoc run [-m] [KEY=VALUE ...]

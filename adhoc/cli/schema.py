@@ -80,6 +80,8 @@ class RunConfig:
     world: Any = MISSING
     benchmark: Any = MISSING
     """Houses and scenarios."""
+    imperfections: Any = MISSING
+    """What is wrong with the team and its radio."""
     llm: Any = MISSING
     """The language model, for policies that use one."""
     join_step: int = 0
@@ -95,6 +97,8 @@ class RunConfig:
     """The step limit of an episode."""
     failed_share: str = "from_joining"
     """What a failed episode counts for the newcomer's share of #AS: `from_joining` or `full`."""
+    predicted_within: int = 20
+    """Steps in which a teammate's next sub-task or sub-skill must come to count as predicted."""
     budget: BudgetConfig = field(default_factory=BudgetConfig)
     ledger: LedgerConfig = field(default_factory=LedgerConfig)
     retry: RetryConfig = field(default_factory=RetryConfig)

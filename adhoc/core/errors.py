@@ -41,6 +41,10 @@ class DatasetError(AdhocError):
     """A dataset's file is broken, foreign, of another version, or describes an impossible task."""
 
 
+class CheckpointError(AdhocError):
+    """A checkpoint is missing, damaged or foreign, or a tensor of it is not of the shape that is needed."""
+
+
 class EpisodeError(AdhocError):
     """An episode broke one of its own rules: its past differs from that of the team alone, or a policy
     asked a question outside its turn or said something that is no message."""
@@ -96,6 +100,10 @@ class ReplyError(AdhocError):
     def __init__(self, message: str, outcome: str = "unreadable", response: object = None) -> None:
         super().__init__(message)
         self.outcome, self.response = outcome, response
+
+
+class CommandError(AdhocError):
+    """A person who plays a robot typed something that it cannot do; the text says why, as a sentence."""
 
 
 class MissingDependency(AdhocError):

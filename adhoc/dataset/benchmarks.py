@@ -9,6 +9,7 @@ from pathlib import Path
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import derive_seed
 from adhoc.dataset.files.dataset_folder import SPLITS, DatasetSplit, dataset_folder
+from adhoc.dataset.making.house_tasks import PAPER_GRID
 from adhoc.dataset.subset import SUBSETS
 from adhoc.evaluation.benchmark import Benchmark
 from adhoc.evaluation.lazy_scenarios import LazyScenarios
@@ -74,6 +75,10 @@ class TaskFileBenchmark(Benchmark):
             return for_run(replace(scenario, house=scaled(scenario.house, self._mass_scale)), seed)
 
         return LazyScenarios([id_for_run(task_id, seed) for task_id in chosen], load)
+
+    def largest_team(self, limit: int | None = None) -> int | None:
+        """See `Benchmark`; not known of a dataset of one's own."""
+        return max(PAPER_GRID.teammates) if self._folder is None else None
 
 
 def for_run(scenario: Scenario, run_seed: int) -> Scenario:

@@ -101,6 +101,10 @@ class ProcThor10kBenchmark(Benchmark):
 
         return LazyScenarios([id_for_run(name, seed) for name in ids], load)
 
+    def largest_team(self, limit: int | None = None) -> int | None:
+        """See `Benchmark`."""
+        return max(PAPER_GRID.teammates)
+
     @property
     def _prefix(self) -> str:
         name = f"procthor10k-{self._split}"

@@ -10,7 +10,7 @@ from pathlib import Path
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import derive_seed
 from adhoc.evaluation.lazy_scenarios import LazyScenarios
-from adhoc.evaluation.ranges import Ranges
+from adhoc.evaluation.ranges import PAPER_RANGES, Ranges
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Scenario
 from adhoc.houses.house import House
@@ -32,6 +32,11 @@ class Benchmark(ABC):
         an id or a `Scenario.seed`. Raises HouseError, WorldError, DatasetError or ConfigurationError, at
         once or on access, if a scenario cannot be made.
         """
+
+    def largest_team(self, limit: int | None = None) -> int | None:
+        """How many teammates there may be at the most in the first `limit` scenarios, without making them;
+        None if that is not known."""
+        return None
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,10 @@ class SampleBenchmark(Benchmark):
     def scenarios(self, world: World, seed: int, limit: int | None = None) -> Sequence[Scenario]:
         """See `Benchmark`. Every scenario is drawn when it is accessed."""
         return _drawn_later(world, sample_house, self._draws[:limit], seed)
+
+    def largest_team(self, limit: int | None = None) -> int | None:
+        """See `Benchmark`."""
+        return max((_teammates(draw.teammates) for draw in self._draws[:limit]), default=None)
 
 
 class HouseBenchmark(Benchmark):
@@ -92,6 +101,10 @@ class HouseBenchmark(Benchmark):
         draws = [Draw(house.id, number, self._misplaced, self._teammates) for number in range(count)]
         return _drawn_later(world, lambda _: house, draws, seed)
 
+    def largest_team(self, limit: int | None = None) -> int | None:
+        """See `Benchmark`."""
+        return _teammates(self._teammates)
+
 
 def _drawn_later(
     world: World, house_of: Callable[[str], House], draws: Sequence[Draw], run_seed: int
@@ -108,6 +121,11 @@ def _drawn_later(
         return sample_scenario(world, house, seed, draw.misplaced, draw.teammates, Ranges(), ids[position])
 
     return LazyScenarios(ids, load)
+
+
+def _teammates(asked: int | None) -> int:
+    """At the most."""
+    return PAPER_RANGES.teammates[1] if asked is None else asked
 
 
 def _to_draw(fields: dict[str, object]) -> Draw:

@@ -10,7 +10,9 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from adhoc.agents.policy import Policy
+from adhoc.evaluation.imperfections import PERFECT, Imperfections
 from adhoc.evaluation.metrics import FailedShare
+from adhoc.evaluation.predictions import WITHIN
 from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
 from adhoc.evaluation.scenario import Scenario
 from adhoc.llm.counting import CountingModel
@@ -31,7 +33,9 @@ class Contender:
     name: str
     label: str
     """As tables and pictures show it."""
-    make: Callable[[], Policy]
+    make: Callable[[int], Policy]
+    """Makes a fresh policy for the robot in a seat: the teammates are numbered from 0 in the order of the
+    scenario, the newcomer follows them. Robots of a mixed team get different ones."""
     settings: Mapping[str, Any] = field(default_factory=dict)
     model: CountingModel | None = None
 
@@ -43,7 +47,10 @@ class Contender:
 
 @dataclass(frozen=True)
 class Conditions:
-    """What all compared episodes have in common."""
+    """What all compared episodes have in common.
+
+    Raises ConfigurationError if an imperfection comes after `max_steps`.
+    """
 
     task: Task
     team: Contender
@@ -55,6 +62,23 @@ class Conditions:
     """Of the task and the world, as JSON values."""
     model: CountingModel | None = None
     """The language model that the task asks by itself, None if it asks none."""
+    imperfections: Imperfections = PERFECT
+    """What is wrong with the team and the radio."""
+    predicted_within: int = WITHIN
+    """Steps in which a change must come that a robot predicted (see `evaluation.predictions`)."""
+
+    def __post_init__(self) -> None:
+        self.imperfections.check_steps(self.max_steps)
+
+    @property
+    def team_name(self) -> str:
+        """The team's name, and what is wrong with it."""
+        return _with_faults(self.team.name, self.imperfections)
+
+    @property
+    def team_label(self) -> str:
+        """Likewise, as tables and pictures show it."""
+        return _with_faults(self.team.label, self.imperfections)
 
 
 @dataclass(frozen=True)
@@ -69,20 +93,24 @@ class EpisodeKey:
     @property
     def id(self) -> str:
         """Unique in a run folder, fit for a file name."""
-        team = self.conditions.team
-        parts = [self.scenario.id, _with_model(team)]
+        team = _with_model(self.conditions.team)
+        parts = [self.scenario.id, _with_faults(team, self.conditions.imperfections)]
         parts += ["alone"] if self.newcomer is None else [_with_model(self.newcomer), f"t{self.join_step}"]
         return "--".join(_file_name(part) for part in parts)
 
     @property
     def settings(self) -> Mapping[str, Any]:
         """Everything but the scenario and the joining step that decides what is recorded."""
-        shared = {
+        shared: dict[str, Any] = {
             "max_steps": self.conditions.max_steps,
             "failed_share": self.conditions.failed_share.value,
             "team": self.conditions.team.settings,
             **self.conditions.settings,
         }
+        if self.conditions.imperfections.settings:
+            shared["imperfections"] = self.conditions.imperfections.settings
+        if self.conditions.predicted_within != WITHIN:
+            shared["predicted_within"] = self.conditions.predicted_within
         return shared if self.newcomer is None else {**shared, "policy": self.newcomer.settings}
 
     @property
@@ -117,15 +145,25 @@ class EpisodeKey:
         return next((model.name for model in models if model is not None), None)
 
     @property
+    def team_model(self) -> str | None:
+        """The model that the team, or the task, asks, whoever the newcomer is."""
+        models = (self.conditions.team.model, self.conditions.model)
+        return next((model.name for model in models if model is not None), None)
+
+    @property
     def group(self) -> tuple[str, str, str | None]:
         """Episodes that only differ in scenario and joining step: they must share a `config_hash`."""
-        return (self.conditions.team.name, self.policy, self.model)
+        return (self.conditions.team_name, self.policy, self.model)
 
 
 def _with_model(contender: Contender) -> str:
     """The name, with that of the model where there is one (but for remarks in brackets)."""
     model = contender.model_name
     return contender.name if model is None else f"{contender.name}-{re.sub(r' *[(].*?[)]', '', model)}"
+
+
+def _with_faults(text: str, imperfections: Imperfections) -> str:
+    return f"{text} ({imperfections.summary})" if imperfections.settings else text
 
 
 def _file_name(text: str) -> str:

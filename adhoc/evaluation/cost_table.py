@@ -76,9 +76,10 @@ def cost_rows(records: Iterable[Record]) -> list[CostRow]:
     """The rows of the table, one block for each policy with its model; none for episodes without a model, and
     none for the offline reasoner, which is free and whose tokens are nobody's."""
     groups: dict[str, list[Record]] = {}
-    for record in records:
-        if record["llm"]["calls"] and record["model"] != OFFLINE_NAME:
-            groups.setdefault(_contestant(record), []).append(record)
+    asked = [it for it in records if it["llm"]["calls"] and it["model"] != OFFLINE_NAME]
+    several = len({it["team_label"] for it in asked}) > 1
+    for record in asked:
+        groups.setdefault(_contestant(record, several), []).append(record)
     return [row for name, mine in groups.items() for row in stage_rows(name, mine)]
 
 
@@ -149,9 +150,10 @@ def _cells(row: CostRow) -> list[str]:
     ]
 
 
-def _contestant(record: Record) -> str:
+def _contestant(record: Record, several_teams: bool) -> str:
     alone = record["join_step"] is None
-    name = f"{record['team_label']} alone" if alone else record["policy_label"]
+    beside = f" beside {record['team_label']}" if several_teams else ""
+    name = f"{record['team_label']} alone" if alone else f"{record['policy_label']}{beside}"
     return f"{name} ({record['model']})"
 
 

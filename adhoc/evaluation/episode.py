@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from enum import Enum
 from functools import partial
 from itertools import groupby
 
@@ -12,67 +10,18 @@ from adhoc.agents.policy import Policy, Turn
 from adhoc.core.errors import BudgetReached, ConfigurationError
 from adhoc.core.values import Action, Observation, Pose
 from adhoc.evaluation.channel import Channel
+from adhoc.evaluation.episode_result import Ending, EpisodeResult
+from adhoc.evaluation.failing import Failing
 from adhoc.evaluation.history import History, check_shared_past
+from adhoc.evaluation.imperfections import PERFECT, Imperfections
 from adhoc.evaluation.joining import joining_pose
 from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
 from adhoc.evaluation.scenario import Member, Scenario, prepare
 from adhoc.evaluation.trace import Trace
+from adhoc.evaluation.understanding import Understanding
 from adhoc.llm.side_by_side import side_by_side
 from adhoc.tasks.task import Task
 from adhoc.worlds.world import AgentTruth, World
-
-
-class Ending(str, Enum):
-    """Why an episode ended."""
-
-    REPLACED = "all misplaced objects re-placed"
-    STOPPED = "all robots stopped or out of battery"
-    MAX_STEPS = "step limit reached"
-    BUDGET = "budget reached"
-    """A robot's question to a language model could have passed a cap. Such an episode failed, however far it
-    came, if the cap is one of the episode; it is unfinished if the cap is the run's."""
-
-
-@dataclass(frozen=True)
-class EpisodeResult:
-    """What became of one episode, before any score is made of it."""
-
-    scenario: Scenario
-    max_steps: int
-    ending: Ending
-    steps: int
-    """Steps that were run."""
-    watched: tuple[str, ...]
-    """Ids of the objects that the episode is about: the misplaced ones."""
-    replaced: tuple[str, ...]
-    """Ids of the misplaced objects that ended in a right place."""
-    join_step: int | None
-    """The step at which the newcomer was to join; None for the team alone."""
-    joined: bool
-    """Whether it did: an episode that ends before `join_step` never sees it."""
-    joined_at: Pose | None
-    """Where it entered."""
-    moved: bool
-    """Whether that is not the planned pose, because it was occupied."""
-    agent_steps: Mapping[str, int]
-    """Battery steps used by every robot that was in the episode."""
-    messages: int
-    undeliverable: int
-    history: tuple[str, ...]
-    """One hash a step, see `evaluation.history`."""
-    trace: Trace
-    budget: BudgetReached | None = None
-    """The cap that ended it, for `Ending.BUDGET`."""
-
-    @property
-    def success(self) -> bool:
-        return self.ending is Ending.REPLACED
-
-    @property
-    def history_hash(self) -> str:
-        """The hash of everything before the newcomer joined, or of the whole episode if it did not."""
-        joined_after = self.join_step if self.joined and self.join_step is not None else -1
-        return self.history[joined_after]
 
 
 def run_episode(
@@ -85,13 +34,14 @@ def run_episode(
     max_steps: int = 500,
     referee: RefereeMaker = PlacementReferee,
     alone: Sequence[str] | None = None,
+    imperfections: Imperfections = PERFECT,
 ) -> EpisodeResult:
     """Run one episode from set-up to its end; deterministic if the policies are.
 
     The teammates act in the order of `scenario.team`, the newcomer after them. It enters before the
     robots look at step `join_step`. The episode ends when the referee sees every misplaced object in a
-    right place, when every robot present has stopped or is out of battery, after `max_steps` steps, or in
-    the step in which a robot asks a language model more than a budget allows.
+    right place, when every robot present has stopped or is out of battery or order, after `max_steps` steps,
+    or in the step in which a robot asks a language model more than a budget allows.
 
     Args:
         world: Any world; it is reset.
@@ -104,6 +54,7 @@ def run_episode(
         referee: Watches the ground truth and says when the task is done; another task brings its own.
         alone: The `history` of the team alone in the same scenario. If given, the past up to the joining
             step is checked against it.
+        imperfections: What is wrong with the team and the radio.
 
     Raises:
         ConfigurationError: The number of policies or the joining step does not fit.
@@ -117,7 +68,7 @@ def run_episode(
     if newcomer is not None and not 0 <= join_step < max_steps:
         raise ConfigurationError(f"join_step={join_step}: must be at least 0 and below max_steps={max_steps}")
     task.begin_episode()
-    episode = _Episode(world, scenario, task, referee, max_steps)
+    episode = _Episode(world, scenario, task, referee, max_steps, imperfections)
     episode.set_up(team)
     ending = episode.ending()
     while ending is None:
@@ -139,51 +90,64 @@ class _Episode:
     """The running state of one episode."""
 
     def __init__(
-        self, world: World, scenario: Scenario, task: Task, referee: RefereeMaker, max_steps: int
+        self,
+        world: World,
+        scenario: Scenario,
+        task: Task,
+        referee: RefereeMaker,
+        max_steps: int,
+        imperfections: Imperfections,
     ) -> None:
         self.step = 0
         self.joined_at: Pose | None = None
         self.trace = Trace()
+        self.understanding = Understanding()
         self.budget: BudgetReached | None = None
         self._world = world
         self._scenario = scenario
         self._task = task
         self._make_referee = referee
         self._max_steps = max_steps
-        self._channel = Channel()
+        self._imperfections = imperfections
+        self._channel = Channel(imperfections.radio, scenario.seed)
         self._policies: dict[str, Policy] = {}
-        self._members: dict[str, Member] = {}
+        self._batteries: dict[str, int] = {}
         self._observations: dict[str, Observation] = {}
         self._finished: set[str] = set()
+        self._failing = Failing(imperfections, scenario, world)
 
     @property
     def joined(self) -> bool:
         return self.joined_at is not None
 
     def set_up(self, team: Sequence[Policy]) -> None:
-        prepare(self._world, self._scenario)
+        lasting = self._imperfections.batteries(self._scenario)
+        prepare(self._world, lasting)
         self._referee = self._make_referee(self._world, self._scenario)
-        for member, policy in zip(self._scenario.team, team):
-            self._introduce(member, policy)
+        for seat, (member, policy) in enumerate(zip(self._scenario.team, team)):
+            battery = lasting.team[seat].capability.max_steps
+            self._introduce(member, self._imperfections.mind(seat, policy), battery)
         self._look()
-        self._truth = dict(self._world.agents())
+        self._truth = self._failing.whole_truth()
+        self._fail()
         self._replaced = self._referee.replaced()
         self.history = History(self._world.fingerprint())
         self.trace.objects_before = dict(self._world.truth())
-        self.trace.add_step(0, self._truth, {}, {})
+        self.trace.add_step(0, self._world.agents(), {}, {})
 
     def let_join(self, policy: Policy) -> None:
         planned = self._scenario.newcomer
         self.joined_at = joining_pose(self._world, planned.pose)
         self._world.add_agent(planned.name, planned.capability, self.joined_at)
-        self._introduce(planned, policy)
+        self._introduce(planned, policy, planned.capability.max_steps)
         self._look()
-        self._truth = dict(self._world.agents())
+        self._truth = self._failing.whole_truth()
         self.trace.add_event(self.step, self._truth[planned.name], "joined")
 
     def advance(self) -> None:
         """One step: the robots that still can confer in turn, then act in turn, then the world moves on."""
-        self._channel.begin_step(self.step)
+        places = {name: (truth.pose.x, truth.pose.y) for name, truth in self._truth.items()}
+        self._channel.begin_step(self.step, places)
         able = [name for name in self._policies if name not in self._finished]
         for name in able:
             with self._channel.turn_of(name):
@@ -194,8 +158,10 @@ class _Episode:
             actions.update(self._act_apart(names) if apart else self._act_in_turn(names))
         self._observations = dict(self._world.step(actions))
         self.step += 1
+        self._fail()
         self.history.add_step(actions, self._channel.log, self._world.fingerprint())
         self.trace.add_messages(self._channel.log)
+        self.understanding.add(self._channel.log)
         self._note_changes(actions)
 
     def ending(self) -> Ending | None:
@@ -227,19 +193,36 @@ class _Episode:
             history=tuple(self.history.links),
             trace=self.trace,
             budget=self.budget,
+            deliveries=self._channel.deliveries,
+            broke_down=dict(self._failing.broke_down),
+            left=dict(self._failing.left),
+            understood=dict(self.understanding.understood),
+            not_understood=self.understanding.not_understood,
         )
 
-    def _introduce(self, member: Member, policy: Policy) -> None:
+    def _introduce(self, member: Member, policy: Policy, battery: int) -> None:
         ask = self._channel.ask_for(member.name)
         policy.reset(member.name, member.capability, self._task, self._scenario.seed, ask)
         self._policies[member.name] = policy
-        self._members[member.name] = member
-        self._channel.join(member.name, policy)
+        self._batteries[member.name] = battery
+        self._channel.join(member.name, policy, of_team=member is not self._scenario.newcomer)
         self.trace.agents.append(member.name)
 
     def _look(self) -> None:
         """Everybody looks once all are in place, so that robots placed last are seen as well."""
-        self._observations = {name: self._world.observe(name) for name in self._policies}
+        self._observations = {
+            name: self._world.observe(name) for name in self._policies if name not in self._failing.left
+        }
+
+    def _fail(self) -> None:
+        """What breaks down or leaves before the next step does so now."""
+        before = len(self._failing.left)
+        for truth, event in self._failing.at(self.step):
+            self._finished.add(truth.id)
+            self._channel.silence(truth.id)
+            self.trace.add_event(self.step, truth, event)
+        if len(self._failing.left) > before:
+            self._look()
 
     def _act_in_turn(self, names: Sequence[str]) -> Iterator[tuple[str, Action]]:
         for name in names:
@@ -260,8 +243,8 @@ class _Episode:
         return turn.action
 
     def _note_changes(self, actions: Mapping[str, Action]) -> None:
-        before, self._truth = self._truth, dict(self._world.agents())
-        self.trace.add_step(self.step, self._truth, actions, self._observations)
+        before, self._truth = self._truth, self._failing.whole_truth()
+        self.trace.add_step(self.step, self._world.agents(), actions, self._observations)
         for name, truth in self._truth.items():
             self._note_hand(before[name], truth)
             if name not in self._finished and self._is_finished(name, truth):
@@ -283,4 +266,4 @@ class _Episode:
             self.trace.add_event(self.step, after, "picked up", after.held)
 
     def _is_finished(self, name: str, truth: AgentTruth) -> bool:
-        return truth.stopped or truth.steps_used >= self._members[name].capability.max_steps
+        return truth.stopped or truth.steps_used >= self._batteries[name]

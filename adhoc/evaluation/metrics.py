@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from adhoc.core.errors import ConfigurationError
-from adhoc.evaluation.episode import EpisodeResult
+from adhoc.evaluation.episode_result import EpisodeResult
 
 
 class FailedShare(str, Enum):

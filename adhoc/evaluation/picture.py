@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from adhoc.core.geometry import planar_distance
-from adhoc.evaluation.episode import EpisodeResult
+from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.floor_drawing import MARGIN, draw_house
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.trace import Trace, TraceEvent

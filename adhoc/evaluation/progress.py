@@ -15,15 +15,19 @@ class ConsoleProgress:
     """Prints one line per finished episode, and in a terminal what is running now.
 
     Use as a context manager; see `run.Progress` for the methods.
+
+    Args:
+        console: Where to print; standard output by default.
+        live: Whether to show what is running; not while a person types at the same terminal.
     """
 
-    def __init__(self, console: Console | None = None) -> None:
-        self._console = console or Console()
+    def __init__(self, console: Console | None = None, live: bool = True) -> None:
+        self._console, self._is_live = console or Console(), live
         self._total = self._done = 0
         self._live = Live(console=self._console, refresh_per_second=8, transient=True)
 
     def __enter__(self) -> ConsoleProgress:
-        if self._console.is_terminal:
+        if self._console.is_terminal and self._is_live:
             self._live.start()
         return self
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,10 +12,22 @@ from rich.table import Table
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.metrics import EpisodeScore, Improvement, Scores, average, improvement
+from adhoc.evaluation.pairing import (
+    Contestant,
+    Pair,
+    PairKey,
+    Team,
+    alone_records,
+    check_settings,
+    contestant,
+    labels,
+    pair_key,
+    pairs,
+    team_names,
+    team_of,
+)
 from adhoc.evaluation.records import FILE_NAME, Record, RecordFile
 
-Contestant = tuple[str, "str | None"]
-"""A policy and its model."""
 COLUMNS = ("Team", "ad hoc", "%Suc ↑", "%PS ↑", "#TS ↓", "#AS ↓", "%SE ↑", "N")
 
 
@@ -32,6 +43,14 @@ class Row:
     scores: Scores
     gain: Improvement | None
     """None for the team alone."""
+
+
+@dataclass(frozen=True)
+class Names:
+    """What teams and rows are called."""
+
+    teams: Mapping[Team, str]
+    rows: Mapping[Contestant, str]
 
 
 @dataclass(frozen=True)
@@ -76,17 +95,20 @@ def read_folders(folders: Iterable[str | Path]) -> list[Record]:
 
 
 def make_report(records: Sequence[Record]) -> Report:
-    """Derive the table. Episodes without a team-alone partner are left out of it and counted in a note."""
-    alone = {_pair_key(record): record for record in records if record["join_step"] is None}
-    joined = [record for record in records if record["join_step"] is not None]
-    paired = [record for record in joined if _pair_key(record) in alone]
-    join_steps: list[int | None] = sorted({record["join_step"] for record in paired})
-    labels = _labels(paired)
+    """Derive the table. Episodes without a team-alone partner are left out of it and counted in a note.
+
+    Raises RecordError for records that do not belong together (see `evaluation.pairing`).
+    """
+    check_settings(records)
+    alone, paired = alone_records(records), pairs(records)
+    join_steps: list[int | None] = sorted({pair.joined["join_step"] for pair in paired})
+    joined = [pair.joined for pair in paired]
+    names = Names(team_names(records), labels(joined))
     return Report(
-        tuple(_block(join_step, paired, alone, labels) for join_step in join_steps or [None]),
+        tuple(_block(join_step, paired, alone, names) for join_step in join_steps or [None]),
         tuple(sorted({record["model"] for record in records if record["model"] is not None})),
-        tuple(_notes(records, len(joined), len(paired))),
-        tuple(_warnings([*alone.values(), *paired], labels)),
+        tuple(_notes(records, len(paired))),
+        tuple(_warnings([*alone.values(), *joined], names)),
     )
 
 
@@ -142,31 +164,27 @@ def row_cells(row: Row) -> list[str]:
 
 
 def _block(
-    join_step: int | None,
-    paired: Sequence[Record],
-    alone: Mapping[tuple[str, ...], Record],
-    labels: Mapping[Contestant, str],
+    join_step: int | None, paired: Sequence[Pair], alone: Mapping[PairKey, Record], names: Names
 ) -> Block:
-    here = [record for record in paired if record["join_step"] == join_step]
+    here = [pair for pair in paired if pair.joined["join_step"] == join_step]
     rows = []
-    for team in dict.fromkeys(record["team_label"] for record in alone.values()):
-        of_team = [record for record in here if record["team_label"] == team]
-        keys = dict.fromkeys(_pair_key(record) for record in of_team)
+    for team in dict.fromkeys(map(team_of, alone.values())):
+        of_team = [pair for pair in here if team_of(pair.joined) == team]
+        keys = dict.fromkeys(pair_key(pair.joined) for pair in of_team)
         references = [alone[key] for key in keys] or [
-            record for record in alone.values() if not here and record["team_label"] == team
+            record for record in alone.values() if not here and team_of(record) == team
         ]
         if references:
-            rows.append(Row(team, "No ad hoc", _average(references), None))
-        for contestant in dict.fromkeys(_contestant(record) for record in of_team):
-            mine = [record for record in of_team if _contestant(record) == contestant]
-            partners = [alone[_pair_key(record)] for record in mine]
-            rows.append(_row(team, labels[contestant], mine, partners))
+            rows.append(Row(names.teams[team], "No ad hoc", _average(references), None))
+        for who in dict.fromkeys(contestant(pair.joined) for pair in of_team):
+            mine = [pair for pair in of_team if contestant(pair.joined) == who]
+            rows.append(_row(names.teams[team], names.rows[who], mine))
     return Block(join_step, tuple(rows))
 
 
-def _row(team: str, label: str, records: Sequence[Record], references: Sequence[Record]) -> Row:
-    scores = _average(records)
-    return Row(team, label, scores, improvement(_average(references), scores))
+def _row(team: str, label: str, mine: Sequence[Pair]) -> Row:
+    scores = _average([pair.joined for pair in mine])
+    return Row(team, label, scores, improvement(_average([pair.alone for pair in mine]), scores))
 
 
 def _average(records: Sequence[Record]) -> Scores:
@@ -184,26 +202,12 @@ def _average(records: Sequence[Record]) -> Scores:
     )
 
 
-def _pair_key(record: Record) -> tuple[str, ...]:
-    """Equal for an episode and that of the team alone in the same scenario under the same limits."""
-    return (record["team"], record["task_id"], record["scenario_hash"], str(record["max_steps"]))
-
-
-def _contestant(record: Record) -> Contestant:
-    return (record["policy"], record["model"])
-
-
-def _labels(records: Sequence[Record]) -> dict[Contestant, str]:
-    """What each row is called: the policy's label, with its model where several were used."""
-    names = {_contestant(record): str(record["policy_label"]) for record in records}
-    used = Counter(names.values())
-    return {
-        contestant: name if used[name] == 1 else f"{name} ({contestant[1] or contestant[0]})"
-        for contestant, name in names.items()
-    }
-
-
-def _notes(records: Sequence[Record], joined: int, paired: int) -> Iterable[str]:
+def _notes(records: Sequence[Record], paired: int) -> Iterable[str]:
+    joined = sum(record["join_step"] is not None for record in records)
+    houses = len({record["house_id"] for record in records})
+    scenarios = len({(record["task_id"], record["scenario_hash"]) for record in records})
+    steps = " or ".join(map(str, sorted({record["max_steps"] for record in records})))
+    yield f"scenarios: {scenarios}; houses: {houses}; steps: at most {steps}"
     yield f"{paired} paired episodes, N in a row"
     yield "in brackets: percent better than the team alone in the same scenarios"
     if joined > paired:
@@ -216,7 +220,7 @@ def _notes(records: Sequence[Record], joined: int, paired: int) -> Iterable[str]
         yield f"made by several versions of the library: {', '.join(versions)}"
 
 
-def _warnings(records: Sequence[Record], labels: Mapping[Contestant, str]) -> Iterable[str]:
+def _warnings(records: Sequence[Record], names: Names) -> Iterable[str]:
     """One line for each row's name in whose episodes a model was not understood or a planner gave up.
 
     Of a team alone it is the team's own models and planners, which its rows with a newcomer count too.
@@ -224,7 +228,9 @@ def _warnings(records: Sequence[Record], labels: Mapping[Contestant, str]) -> It
     by_name: dict[str, list[Record]] = {}
     for record in records:
         alone = record["join_step"] is None
-        name = f"{record['team_label']} alone" if alone else labels[_contestant(record)]
+        team = names.teams[team_of(record)]
+        name = f"{team} alone" if alone else names.rows[contestant(record)]
+        name = name if alone or len(names.teams) == 1 else f"{name} beside {team}"
         by_name.setdefault(name, []).append(record)
     for name, mine in by_name.items():
         invalid, repaired = _total(mine, "llm", "invalid"), _total(mine, "llm", "repaired")

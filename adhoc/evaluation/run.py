@@ -12,7 +12,8 @@ from adhoc import __version__
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.common_sense import judgement_counts
 from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
-from adhoc.evaluation.episode import EpisodeResult, run_episode
+from adhoc.evaluation.episode import run_episode
+from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.folder import EpisodeStore
 from adhoc.evaluation.lazy_scenarios import scenario_ids
 from adhoc.evaluation.llm_field import llm_field, stage_counts
@@ -121,12 +122,13 @@ def _run_one(
         world,
         scenario,
         conditions.task,
-        [conditions.team.make() for _ in scenario.team],
-        None if key.newcomer is None else key.newcomer.make(),
+        [conditions.team.make(seat) for seat in range(len(scenario.team))],
+        None if key.newcomer is None else key.newcomer.make(len(scenario.team)),
         0 if key.join_step is None else key.join_step,
         conditions.max_steps,
         conditions.referee,
         None if alone is None else unpack_history(alone["history"]),
+        conditions.imperfections,
     )
     wall = time.perf_counter() - started
     record = make_record(key, result, alone, stage_counts(_models(key)), wall)
@@ -161,8 +163,11 @@ def make_record(
         "difficulty": scenario.difficulty.value,
         "teammates": len(scenario.team),
         "misplaced": len(result.watched),
-        "team": key.conditions.team.name,
-        "team_label": key.conditions.team.label,
+        "team": key.conditions.team_name,
+        "team_label": key.conditions.team_label,
+        "imperfections": key.conditions.imperfections.settings or None,
+        "broke_down": dict(result.broke_down),
+        "left": dict(result.left),
         "policy": key.policy,
         "policy_label": "No ad hoc" if key.newcomer is None else key.newcomer.label,
         "join_step": key.join_step,
@@ -171,6 +176,7 @@ def make_record(
         "joined_elsewhere": result.moved,
         "seed": scenario.seed,
         "model": key.model,
+        "team_model": key.team_model,
         "max_steps": result.max_steps,
         "steps": result.steps,
         "ending": result.ending.value,
@@ -185,9 +191,14 @@ def make_record(
         "efficiency": scored.efficiency,
         "messages": result.messages,
         "undeliverable": result.undeliverable,
+        "deliveries": asdict(result.deliveries),
+        "messages_understood": dict(sorted(result.understood.items())),
+        "messages_not_understood": result.not_understood,
         "llm": llm_field(stages),
         "planning": asdict(result.trace.planning),
         "team_planning": asdict(result.trace.team_planning),
+        "predictions": result.trace.foresight.counts(key.newcomer is None, key.conditions.predicted_within),
+        "person": asdict(result.trace.people),
         "common_sense": judgement_counts(key.conditions.task.common_sense),
         "history_hash": result.history_hash,
         "history": pack_history(result.history) if key.newcomer is None else None,

@@ -8,11 +8,15 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from adhoc.core.messages import Message
-from adhoc.core.values import Action, Observation, Point, Pose
+from adhoc.core.values import Action, ActionName, Observation, Point, Pose
+from adhoc.evaluation.person_counts import PersonCounts
+from adhoc.evaluation.predictions import Foresight
 from adhoc.worlds.world import AgentTruth, ObjectTruth
 
 MAX_MESSAGES = 20_000
 MAX_DECISIONS = 500
+EVERY_STEP = ("doing", "person")
+"""What robots may report at every step; it is counted, not kept."""
 
 
 @dataclass(frozen=True)
@@ -29,8 +33,8 @@ class TraceStep:
 class TraceEvent:
     """Something worth marking on a picture: a robot took or put an object, joined, or stopped.
 
-    `kind` is `joined`, `stopped`, `battery empty`, `picked up`, `put down` or `replaced` (by whom is not
-    said: `agent` is empty); `position` is on the floor plan, in metres.
+    `kind` is `joined`, `stopped`, `battery empty`, `broke down`, `left`, `picked up`, `put down` or
+    `replaced` (by whom is not said: `agent` is empty); `position` is on the floor plan, in metres.
     """
 
     step: int
@@ -62,10 +66,10 @@ class PlanningCounts:
 
     def add(self, trace: Mapping[str, Any]) -> None:
         """Count what one turn reported."""
-        decision = trace.get("decision")
-        if isinstance(decision, Mapping):
-            self.sub_tasks += 1
-            self.fallbacks += decision.get("fallback") is not None
+        for decision in (trace.get("decision"), *trace.get("superseded", ())):
+            if isinstance(decision, Mapping):
+                self.sub_tasks += 1
+                self.fallbacks += decision.get("fallback") is not None
         skills = trace.get("skills", ())
         self.refused_skills += sum("refused" in skill for skill in skills)
 
@@ -87,6 +91,8 @@ class Trace:
     planning: PlanningCounts = field(default_factory=PlanningCounts)
     """The newcomer's."""
     team_planning: PlanningCounts = field(default_factory=PlanningCounts)
+    foresight: Foresight = field(default_factory=Foresight)
+    people: PersonCounts = field(default_factory=PersonCounts)
     dropped: int = 0
     """Messages and decisions that did not fit."""
 
@@ -103,6 +109,9 @@ class Trace:
             for name, observation in observations.items()
             if name in actions and observation.last_result and observation.last_result.failure
         }
+        for name, action in actions.items():
+            if action.name is ActionName.STOP:
+                self.foresight.doings.stop(step - 1, name)
         poses = {name: truth.pose for name, truth in agents.items()}
         texts = {name: str(action) for name, action in actions.items()}
         self.steps.append(TraceStep(step, poses, texts, failures))
@@ -119,6 +128,9 @@ class Trace:
 
     def add_decision(self, step: int, agent: str, trace: Mapping[str, Any], of_team: bool = False) -> None:
         """Note what a policy, a teammate's or the newcomer's, reported of its decision, if anything."""
+        self.foresight.add(step, agent, trace, of_team)
+        self.people.add(trace)
+        trace = {name: value for name, value in trace.items() if name not in EVERY_STEP}
         if not trace:
             return
         (self.team_planning if of_team else self.planning).add(trace)
@@ -129,6 +141,8 @@ class Trace:
 
     def add_messages(self, messages: Iterable[Message]) -> None:
         """Note messages in the order of sending."""
+        messages = list(messages)
+        self.foresight.doings.hear(messages)
         for message in messages:
             if len(self.messages) < MAX_MESSAGES:
                 self.messages.append(message)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from adhoc.evaluation.episode import EpisodeResult
+from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.trace import Decision
 from adhoc.prompting.clean import one_line
@@ -46,6 +46,7 @@ def _page(decision: Decision, record: Record) -> Iterator[str]:
     yield ""
     yield from _section("Candidates", [_candidate(one) for one in _listed(plan.get("candidates"))])
     yield from _section("Ranking", [_candidate(one) for one in _listed(plan.get("ranking"))], numbered=True)
+    yield from _section("Predictions", [_prediction(one) for one in _listed(plan.get("predictions"))])
     yield from _section("Teammates' replies", [_reply(one) for one in _listed(plan.get("replies"))])
     yield from _section("Verdicts", [_verdict(one) for one in _listed(plan.get("verdicts"))])
     skill_exchanges = [one for skill in _listed(decision.trace.get("skills")) for one in _exchanges(skill)]
@@ -86,6 +87,11 @@ def _candidate(candidate: Mapping[str, Any]) -> str:
     score = candidate.get("score")
     line = _code(candidate.get("sub_task")) + ("" if score is None else f" (score {score:g})")
     return line + (f": {_plain(candidate['rationale'])}" if candidate.get("rationale") else "")
+
+
+def _prediction(prediction: Mapping[str, Any]) -> str:
+    parts = (prediction.get("sub_task") or "unknown", prediction.get("sub_skill") or "unknown")
+    return f"**{_plain(prediction.get('teammate', 'somebody'))}**: {', '.join(map(_code, parts))}"
 
 
 def _reply(reply: Mapping[str, Any]) -> str:

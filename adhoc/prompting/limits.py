@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from adhoc.core.messages import Message
 from adhoc.core.plans import Context, Event
+from adhoc.prompting.fair_share import without_crowding
 
 _BLOCKS = 3
 
@@ -30,10 +31,12 @@ def messages_shown(context: Context, replies: Sequence[Message], limits: Limits)
     """The latest messages, oldest first, without the replies, which have a section of their own.
 
     Once there are more than the limit, a third of it goes at a time: then the earliest message that is shown,
-    and with it the beginning of the prompt, stays the same for many calls.
+    and with it the beginning of the prompt, stays the same for many calls. A robot that talks without end has
+    no more than an equal share of them.
     """
     replied = set(map(_identity, replies))
-    messages = [message for message in context.messages if _identity(message) not in replied]
+    others = [message for message in context.messages if _identity(message) not in replied]
+    messages = without_crowding(others, context.me, limits.messages)
     block = max(1, limits.messages // _BLOCKS)
     blocks = -(-max(0, len(messages) - limits.messages) // block)
     return messages[blocks * block + limits.messages_cut :]

@@ -36,6 +36,12 @@ class CommonSense(ABC):
         """Told objects of which categories will be judged next, so that a judge can ask about all at once."""
 
     @property
+    def fingerprint(self) -> str:
+        """A hash of files that decide its answers and that a configuration only names, such as checkpoints;
+        empty if nothing does. Robots that judge by it have it in theirs."""
+        return ""
+
+    @property
     def judge(self) -> str | None:
         """The language model that judges, as records name it; None if none does."""
         return None

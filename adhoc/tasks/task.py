@@ -53,6 +53,10 @@ class Task(ABC):
         """By what the task judges where things belong; None if it has no need of that."""
         return None
 
+    def with_common_sense(self, common_sense: CommonSense) -> Task:
+        """The same task as a robot sees it that judges by `common_sense`; itself if it has no need of any."""
+        return self
+
     def begin_episode(self) -> None:
         """Told before every episode: nothing that was asked for in an earlier one may be left over."""
         if self.common_sense is not None:

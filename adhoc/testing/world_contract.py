@@ -400,6 +400,47 @@ class WorldContract:
         assert (after.pose, after.steps_left, after.step) == (before.pose, before.steps_left, 7)
         assert set(world.step({})) == {"robot", "late"}
 
+    # --- leaving ----------------------------------------------------------------------------------
+
+    def test_a_robot_that_left_is_neither_seen_nor_in_the_way(self, world: World) -> None:
+        watcher = Pose(2.0, 1.0, QUARTER)
+        seen = world.add_agent("other", Capability(), watcher)
+        assert "robot" in {label.id for label in seen.labels.values()}
+        world.remove_agent("robot")
+        assert set(world.agents()) == {"other"}
+        assert "robot" not in {label.id for label in world.observe("other").labels.values()}
+        assert world.is_free(Pose(2.0, 2.0))
+        for _ in range(4):
+            after = world.step({"other": Action(ActionName.MOVE_AHEAD)})
+        assert set(after) == {"other"}
+        assert (after["other"].pose.x, after["other"].pose.y) == pytest.approx((2.0, 2.0))
+
+    def test_a_robot_that_left_can_do_nothing_and_its_id_is_free(self, world: World) -> None:
+        act(world, ActionName.ROTATE_LEFT)
+        world.remove_agent("robot")
+        for call in (
+            lambda: world.observe("robot"),
+            lambda: world.step({"robot": Action(ActionName.STOP)}),
+            lambda: world.remove_agent("robot"),
+        ):
+            with pytest.raises(WorldError, match="robot"):
+                call()
+        again = world.add_agent("robot", Capability(max_steps=9), Pose(0.5, 0.5))
+        assert (again.steps_left, again.held, again.last_result) == (9, None, None)
+
+    def test_what_a_robot_held_that_left_lies_where_it_stood(self, world: World) -> None:
+        act(world, ActionName.PICK_UP, "apple")
+        before = world.fingerprint()
+        world.remove_agent("robot")
+        assert world.fingerprint() != before
+        truth = world.truth()["apple"]
+        assert (truth.holder, truth.receptacle, truth.receptacle_category) == (None, FLOOR, FLOOR)
+        assert truth.room == "room"
+        assert truth.position == pytest.approx((2.0, 2.0, 0.05), abs=0.06)
+        taken = world.add_agent("other", Capability(), Pose(1.25, 2.0, 0.0, 2 * DOWN))
+        assert "apple" in {label.id for label in taken.labels.values()}
+        assert act(world, ActionName.PICK_UP, "apple", "other").held == "apple"
+
     # --- entering ---------------------------------------------------------------------------------
 
     @pytest.mark.parametrize(

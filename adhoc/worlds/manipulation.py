@@ -118,6 +118,21 @@ class Manipulation:
         robot.held = None
         return None
 
+    def leave_behind(self, robot: Robot) -> bool:
+        """Lay what a robot held that is gone on the floor, nearest to where it stood, in its room if there
+        is a place; False, with everything as it was, if no floor has one. True if it held nothing."""
+        if robot.held is None:
+            return True
+        thing, here = self._scene.things[robot.held], (robot.pose.x, robot.pose.y)
+        floors = [it for it in self._scene.things.values() if it.kind is SolidKind.FLOOR]
+        inside = [it for it in floors if it.id == self._scene.room_at(here)]
+        for choice in (inside, floors):
+            places = self._placer.on_surfaces(thing, [it for floor in choice for it in floor.surfaces])
+            if self._placer.put(thing, nearest_first(places, here), FLOOR):
+                robot.held = None
+                return True
+        return False
+
     def _visible_distance(self, robot: Robot, thing: Thing) -> float:
         """Horizontal metres from the robot's axis to the nearest visible point; inf if it is not visible."""
         frame = self._look(robot)

@@ -138,6 +138,15 @@ class PyBulletWorld(World):
         live.robots[agent_id] = robot
         return live.observation(robot)
 
+    def remove_agent(self, agent_id: str) -> None:
+        live = self._house()
+        robot = live.robot(agent_id)
+        self._robot_body.put_aside(live.scene, robot)
+        if not live.manipulation.leave_behind(robot):
+            self._robot_body.move(live.scene, robot, robot.pose)
+            raise WorldError(f"robot {agent_id!r} cannot leave: no floor has a place for {robot.held!r}")
+        del live.robots[agent_id]
+
     def step(self, actions: Mapping[str, Action]) -> Mapping[str, Observation]:
         """See `World.step`. A robot without an action gets None as its `last_result`."""
         live = self._house()
@@ -226,6 +235,7 @@ class PyBulletWorld(World):
             look=look,
             photographer=photographer,
             motion=motion,
+            manipulation=manipulation,
             actions=Actions(motion, manipulation),
             placer=placer,
             free_space=FreeSpace(scene, motion, self._grid_size, self._rotation),
@@ -241,6 +251,7 @@ class _LiveHouse:
     look: Callable[[Robot], Frame]
     photographer: TinySensor
     motion: Motion
+    manipulation: Manipulation
     actions: Actions
     placer: Placer
     free_space: FreeSpace

@@ -68,6 +68,11 @@ class RobotBody:
         scene.bullet.place(robot.body, self.placement(pose))
         scene.move_robot(robot.instance, [self._seen(robot.capability, pose)])
 
+    def put_aside(self, scene: Scene, robot: Robot) -> None:
+        """Take a robot's body out of the scene; `move` brings it back."""
+        scene.bullet.put_aside(robot.body)
+        scene.hide_robot(robot.instance)
+
     def placement(self, pose: Pose) -> Placement:
         """Where the cylinder of a robot at `pose` is."""
         return Placement((pose.x, pose.y, self.height / 2), pose.yaw)

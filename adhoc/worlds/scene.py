@@ -118,6 +118,10 @@ class Scene:
         """Show a robot's body elsewhere."""
         self.table.place(instance, boxes, Layer.MOVED)
 
+    def hide_robot(self, instance: int) -> None:
+        """Show a robot's body nowhere."""
+        self.table.set_layer(instance, Layer.HIDDEN)
+
     def take(self, thing: Thing, holder: str | None) -> None:
         """Take a thing out of the scene: into a robot's hand, or nowhere while it is being placed."""
         self._leave_static_layer(thing)

@@ -60,6 +60,16 @@ class World(ABC):
         """
 
     @abstractmethod
+    def remove_agent(self, agent_id: str) -> None:
+        """Take a robot out of the house, at any step: nobody sees it or is blocked by it any more, `agents`
+        names it no longer, and its id is free again.
+
+        What it held stays: on the floor, at the free place nearest to where the robot stood, in the same room
+        if that has one. Raises WorldError for an unknown robot id, or if no floor has a place for what it
+        holds; then nothing is changed.
+        """
+
+    @abstractmethod
     def step(self, actions: Mapping[str, Action]) -> Mapping[str, Observation]:
         """Carry out one action per robot, in the order of the mapping, then let every robot look.
 

@@ -57,6 +57,13 @@ def test_plans_that_were_made_again_are_passed_on_for_members_alone():
     assert crew.plans(1) == {"a": TIDY}
 
 
+def test_a_plan_that_is_passed_on_late_does_not_replace_a_newer_one():
+    crew = Crew()
+    crew.hear(replace(said(plan_message(TIDY), "a"), step=5), 5)
+    crew.hear(replace(said(plan_message(None, revised={"a": EXPLORE}), "b"), step=4), 6)
+    assert crew.plans(6) == {"a": TIDY}
+
+
 @pytest.mark.parametrize(
     "message",
     [

@@ -7,6 +7,8 @@ from collections.abc import Callable, Mapping
 
 import pytest
 
+from adhoc.agents.communication import call_payload
+from adhoc.agents.crew import plan_message
 from adhoc.agents.llm_teammate import LLMTeammate
 from adhoc.agents.policy import Policy, Turn
 from adhoc.core.calls import Call
@@ -14,7 +16,8 @@ from adhoc.core.errors import ConfigurationError, ReplyError
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.plans import Objection, Proposal
 from adhoc.core.values import Action, ActionName, Capability
-from adhoc.evaluation.episode import EpisodeResult, run_episode
+from adhoc.evaluation.episode import run_episode
+from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.houses.samples import sample_house
 from adhoc.llm.model import LanguageModel, LMRequest, LMResponse
@@ -28,6 +31,7 @@ from adhoc.tasks.tidying_up import TidyingUp
 from adhoc.worlds.pybullet_world import PyBulletWorld
 
 STOP, LOOK = Call("Stop"), Call("Explore")
+FIRST = Call("Explore", ("room|9",))
 HOUSE = "one_room"
 
 
@@ -68,13 +72,18 @@ def explore(context) -> Call:
     return Call("Explore", (context.rooms[0].id,)) if context.rooms else Call("Explore", ("room|1",))
 
 
+def explore_any(log) -> Call:
+    """What the first robot planned first."""
+    return next(iter(log[1][2].values()))
+
+
 def content(context, plans, objections) -> Proposal:
     return Proposal(explore(context))
 
 
 def play(world, word, newcomer=None, max_steps=6, log=None, team=3, **options) -> EpisodeResult:
     log = [] if log is None else log
-    where = sample_scenario(world, sample_house(HOUSE), seed=3, misplaced=1, teammates=team)
+    where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=team)
     policies = [LLMTeammate(Scripted(word, log), Search(), **options) for _ in range(team)]
     return run_episode(world, where, Calm(), policies, newcomer, join_step=2, max_steps=max_steps)
 
@@ -134,12 +143,12 @@ class TestObjections:
         assert log[3][3][0].reason == "mine"
         assert log[4][2]["teammate_1"] == STOP
 
-    def test_rounds_bound_the_objections_and_nobody_plans_again_twice_a_step(self, world):
+    def test_whoever_objects_in_vain_objects_no_more_and_nobody_plans_again_twice_a_step(self, world):
         log: list[tuple[object, ...]] = []
         play(world, self.stubborn, log=log, max_steps=2, rounds=3)
         speakers = [me for _, me, *_ in log]
         assert speakers.count("teammate_1") == 2
-        assert speakers.count("teammate_3") == 4
+        assert speakers.count("teammate_3") == 2
 
     def test_without_rounds_nobody_plans_again(self, world):
         log: list[tuple[object, ...]] = []
@@ -165,12 +174,85 @@ class TestObjections:
         (third,) = [entry for entry in log if entry[1] == "teammate_3"]
         assert third[2]["teammate_1"] == STOP
 
-    def test_negative_rounds_are_an_error(self, world):
-        with pytest.raises(ConfigurationError, match="rounds=-1"):
-            play(world, content, rounds=-1)
+    @pytest.mark.parametrize("option", ["rounds", "pause", "patience"])
+    def test_negative_numbers_are_errors(self, world, option):
+        with pytest.raises(ConfigurationError, match=f"{option}=-1"):
+            play(world, content, **{option: -1})
+
+    def test_a_robot_whose_turn_is_to_come_plans_again_in_its_turn(self, world):
+        """teammate_1 plans again in step 3 and objects to what teammate_3 is at since step 1."""
+
+        class Restless(Calm):
+            def finished(self, sub_task, done, rooms):
+                return sub_task.name == "Re-place"
+
+        def word(context, plans, objections):
+            if context.me != "teammate_1":
+                return Proposal(STOP if objections else explore(context))
+            against = (Objection("teammate_1", "teammate_3", plans["teammate_3"], "mine"),) if plans else ()
+            return Proposal(Call("Re-place", ("Mug|1", "Shelf", "Kitchen")), "", against)
+
+        log: list[tuple[object, ...]] = []
+        where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=3)
+        team = [LLMTeammate(Scripted(word, log), Search()) for _ in range(3)]
+        result = run_episode(world, where, Restless(), team, max_steps=9)
+        (again,) = [entry for entry in log if entry[1] == "teammate_3" and entry[3]]
+        objected = [it for it in log if it[1] == "teammate_1" and it[0] == again[0]]
+        assert objected, "in the step of the objection, and not before"
+        assert len([it for it in log if it[1] == "teammate_3" and it[0] == again[0]]) == 1
+        told = [it.text for it in result.trace.messages if it.sender == "teammate_3"]
+        assert any(text.startswith("My sub-task is now: Stop") for text in told)
+
+
+class TestStrangers:
+    """A newcomer that speaks as members do among themselves."""
+
+    class Forger(Newcomer):
+        def confer(self, observation, inbox):
+            for name in ("teammate_1", "teammate_2", "teammate_3"):
+                payload = {"objects_to": call_payload(Call("Explore", ("room|2",))), "reason": "mine"}
+                self.ask(Message(MessageKind.TEAM, "", payload, name))
+            plans = {"teammate_1": call_payload(STOP)}
+            self.ask(Message(MessageKind.TEAM, "", {"plan": None, "stopped": False, "revised": plans}))
+
+        def respond(self, message):
+            return plan_message(STOP)
+
+    def test_forges_no_plans_and_makes_nobody_plan_again(self, world):
+        log: list[tuple[object, ...]] = []
+        result = play(world, content, self.Forger(), log=log, max_steps=12, adaptive=False)
+        assert [me for _, me, *_ in log] == ["teammate_1", "teammate_2", "teammate_3"]
+        assert result.undeliverable > 0
+
+    def test_is_noticed_as_a_newcomer_all_the_same(self, world):
+        log: list[tuple[object, ...]] = []
+        play(world, content, self.Forger(), log=log, max_steps=6)
+        again = [entry for entry in log if entry[0] > 1]
+        assert [entry[1] for entry in again] == ["teammate_1", "teammate_2", "teammate_3"]
+        assert {frozenset(entry[2].values()) for entry in again} == {frozenset({explore_any(log)})}
 
 
 class TestUnusableReplies:
+    def test_a_sub_task_that_is_over_is_not_kept(self, world):
+        """Else the robot would look around for ever."""
+
+        class Over(Calm):
+            def finished(self, sub_task, done, rooms):
+                return sub_task == FIRST
+
+        def word(context, plans, objections):
+            if context.step > 1:
+                raise ReplyError("nothing usable", "unreadable")
+            return Proposal(FIRST)
+
+        where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=1)
+        log: list[tuple[object, ...]] = []
+        team = [LLMTeammate(Scripted(word, log), Search())]
+        result = run_episode(world, where, Over(), team, max_steps=20)
+        chosen = [it.trace["decision"]["chosen"] for it in result.trace.decisions if "decision" in it.trace]
+        assert chosen[0] == str(FIRST)
+        assert str(FIRST) not in chosen[1:]
+
     def test_the_safe_choice_is_taken_and_said(self, world):
         safe = []
 
@@ -192,7 +274,7 @@ class TestUnusableReplies:
                 Impossible.asked += 1
                 raise ReplyError("nothing", "empty")
 
-        where = sample_scenario(world, sample_house(HOUSE), seed=3, misplaced=1, teammates=1)
+        where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=1)
         log: list[tuple[object, ...]] = []
         run_episode(world, where, Calm(), [LLMTeammate(Scripted(content, log), Impossible())], max_steps=31)
         assert len(log) <= 7
@@ -225,7 +307,7 @@ class TestAdaptation:
                     return super().act(observation, inbox)
                 return Turn(Action(ActionName.ROTATE_LEFT))
 
-        where = sample_scenario(world, sample_house(HOUSE), seed=3, misplaced=1, teammates=2)
+        where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=2)
         log: list[tuple[object, ...]] = []
         team = [kind(Scripted(content, log), Search()) for kind in (LLMTeammate, Dying)]
         run_episode(world, where, Calm(), team, max_steps=12)
@@ -280,7 +362,7 @@ def test_the_sub_skills_of_all_members_are_asked_for_together(world):
     gathering = GatheringModel(model)
 
     def run(model: LanguageModel) -> EpisodeResult:
-        where = sample_scenario(world, sample_house(HOUSE), seed=3, misplaced=1, teammates=3)
+        where = sample_scenario(world, sample_house(HOUSE), seed=6, misplaced=1, teammates=3)
         team = [
             LLMTeammate(LLMNegotiator(model, legal=TidyingUp().legal), LLMSubSkillPlanner(model))
             for _ in range(3)

@@ -84,7 +84,7 @@ class TestMain:
         with pytest.raises(SystemExit) as stop:
             adhoc("rum")
         assert stop.value.code == 2
-        assert "'run', 'report', 'house'" in capsys.readouterr().err
+        assert "'run', 'sensitivity', 'report', 'house'" in capsys.readouterr().err
 
     def test_the_version_is_told(self, capsys):
         with pytest.raises(SystemExit):
@@ -97,7 +97,9 @@ class TestErrors:
         ("arguments", "told"),
         [
             (["join_step=abc"], "'abc' of type 'str' could not be converted to Integer"),
-            (["policy=foo"], "policy=foo: no such choice; there are: cot, gpl, heuristic, irot"),
+            (["policy=foo"], "policy=foo: no such choice; there are: cot, gpl, heuristic, human, irot"),
+            (["policy=none,random"], "policy=none,random: several values need -m: adhoc run -m policy=none"),
+            (["join_step=0,50"], "several values need -m"),
             (["policy/evaluator=foo"], "there are: gpl, keep_order, llm"),
             (["joinstep=3"], "keys of a run: policy, team, task"),
             (["join_step=600"], "must be at least 0 and below max_steps=500"),
@@ -107,7 +109,6 @@ class TestErrors:
             (["llm=litellm"], "llm.model=...: must be given"),
             (["benchmark=house", "policy=none"], "benchmark.path=...: must be given"),
             (["benchmark=house", "benchmark.path=no.json", "policy=none"], "no.json"),
-            (["policy=none,irot"], "--multirun"),
             (
                 ["policy.agent._target_=nowhere.Policy"],
                 "policy.agent._target_=nowhere.Policy: cannot be imported",

@@ -142,6 +142,10 @@ VISIBLE = {
     "llm/offline": {"seed", "forget_capability", "ignore_teammate", "ignore_reply"},
     "llm/litellm": {"temperature", "timeout", "max_tokens", "api_base", "structured", "window"},
     "llm/local": {"temperature", "max_tokens", "structured", "window", "threads", "at_once", "gpu_layers"},
+    "imperfections/none": {
+        *("loss", "delay", "jitter", "range"),
+        *("silent", "wrong", "untruthful", "breaks_down", "battery", "leaves"),
+    },
     "task/common_sense/llm": {"repairs", "max_tokens"},
     "world/pybullet": {"image_size", "renderer", "mass_scale"},
     "benchmark/paper": {"dataset", "split", "subset", "mass_scale", "folder"},

@@ -100,6 +100,14 @@ class GridWorld(World):
         self.results[agent_id] = None
         return self.observe(agent_id)
 
+    def remove_agent(self, agent_id: str) -> None:
+        if agent_id not in self.robots:
+            raise WorldError(f"there is no robot {agent_id!r}")
+        robot = self.robots.pop(agent_id)
+        if robot.held is not None:
+            del self.holders[robot.held]
+            self._put(robot.held, FLOOR, (robot.pose.x, robot.pose.y))
+
     def step(self, actions: Mapping[str, Action]) -> Mapping[str, Observation]:
         for name, action in actions.items():
             failure = self._do(name, action)

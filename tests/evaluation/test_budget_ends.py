@@ -26,7 +26,7 @@ def chatty(capped):
             model.complete(LMRequest((), "generate", max_tokens=1))
             return super().act(observation, inbox)
 
-    return Contender("chatty", "Chatty", lambda: Chatty(*HELP), {"name": "chatty"}, model)
+    return Contender("chatty", "Chatty", lambda seat: Chatty(*HELP), {"name": "chatty"}, model)
 
 
 def script():

@@ -82,12 +82,14 @@ def run(folder, backend, newcomer=True, scenarios=(0, 1)):
     model = CountingModel(EpisodeModel(LedgerModel(backend, folder / "ledger")))
     conditions = Conditions(
         SensibleErrand(LLMCommonSense(model)),
-        Contender("askers", "Askers", Asker, {"name": "askers"}),
+        Contender("askers", "Askers", lambda seat: Asker(), {"name": "askers"}),
         max_steps=12,
         settings={"task": "sensible"},
         model=model,
     )
-    helper = Contender("helper", "Helper", lambda: Script(*fetch("apple", "counter")), {"name": "helper"})
+    helper = Contender(
+        "helper", "Helper", lambda seat: Script(*fetch("apple", "counter")), {"name": "helper"}
+    )
     run_comparison(
         GridWorld(),
         [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in scenarios],
@@ -205,11 +207,11 @@ class TestReferee:
         model = CountingModel(Stubborn())
         conditions = Conditions(
             SensibleErrand(LLMCommonSense(model)),
-            Contender("askers", "Askers", Script, {}),
+            Contender("askers", "Askers", lambda seat: Script(), {}),
             max_steps=30,
             model=model,
         )
         steps = fetch("apple", "counter") + fetch("knife", "counter")
-        helper = Contender("helper", "Helper", lambda: Script(*steps), {})
+        helper = Contender("helper", "Helper", lambda seat: Script(*steps), {})
         run_comparison(GridWorld(), [scenario()], conditions, helper, 0, RunFolder(tmp_path), Quiet())
         assert records(tmp_path)[1]["success"] is True

@@ -8,7 +8,8 @@ from grid_world import Errand, GridWorld, Script, fetch, scenario
 from adhoc.core.errors import ConfigurationError, EpisodeError
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Action, ActionName, Capability, Pose
-from adhoc.evaluation.episode import Ending, run_episode
+from adhoc.evaluation.episode import run_episode
+from adhoc.evaluation.episode_result import Ending
 from adhoc.evaluation.referee import PlacementReferee
 from adhoc.evaluation.scenario import Member
 

@@ -9,7 +9,7 @@ from grid_world import scenario
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.values import Pose
-from adhoc.evaluation.episode import Ending, EpisodeResult
+from adhoc.evaluation.episode_result import Ending, EpisodeResult
 from adhoc.evaluation.metrics import (
     EpisodeScore,
     FailedShare,

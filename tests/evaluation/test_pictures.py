@@ -50,8 +50,8 @@ class Thinker(Script):
 def play(newcomer, max_steps=20, join_step=3):
     where = scenario()
     result = run_episode(GridWorld(), where, Errand(), [Script(), Script()], newcomer, join_step, max_steps)
-    conditions = Conditions(Errand(), Contender("walkers", "Walkers", Script), max_steps)
-    key = EpisodeKey(where, conditions, Contender("thinker", "Thinker", Script), join_step)
+    conditions = Conditions(Errand(), Contender("walkers", "Walkers", lambda seat: Script()), max_steps)
+    key = EpisodeKey(where, conditions, Contender("thinker", "Thinker", lambda seat: Script()), join_step)
     return result, make_record(key, result, None, {}, 0.0)
 
 

@@ -67,7 +67,10 @@ def test_the_block_of_another_step_only_counts_its_own_pairs():
 def test_the_model_and_the_number_of_pairs_are_named():
     report = make_report(RECORDS)
     assert report.title.endswith("language model: tiny")
-    assert "4 paired episodes" in report.notes[0]
+    assert report.notes[:2] == (
+        "scenarios: 2; houses: 1; steps: at most 500",
+        "4 paired episodes, N in a row",
+    )
     markdown = to_markdown(report)
     assert "## The ad hoc robot joins at step 50" in markdown
     assert "| Heuristic based | IRoT-LLM | 100.0 (100.0) |" in markdown

@@ -41,9 +41,9 @@ class Quiet:
         self.told.append(("finished", record["episode_id"]))
 
 
-TEAM = Contender("walkers", "Walkers", Script, {"name": "walkers"})
-HELPER = Contender("helper", "Helper", lambda: Script(*HELP), {"name": "helper"})
-IDLER = Contender("idler", "Idler", lambda: Script(Action(ActionName.STOP)), {"name": "idler"})
+TEAM = Contender("walkers", "Walkers", lambda seat: Script(), {"name": "walkers"})
+HELPER = Contender("helper", "Helper", lambda seat: Script(*HELP), {"name": "helper"})
+IDLER = Contender("idler", "Idler", lambda seat: Script(Action(ActionName.STOP)), {"name": "idler"})
 SCENARIOS = [scenario(), scenario(id="two_rooms-s1", seed=1)]
 
 
@@ -150,7 +150,7 @@ def test_a_disturbed_past_is_reported_against_an_old_record(tmp_path):
 
 
 def test_a_late_newcomer_is_recorded_as_never_joined(tmp_path):
-    quitters = replace(TEAM, make=lambda: Script(Action(ActionName.STOP)))
+    quitters = replace(TEAM, make=lambda seat: Script(Action(ActionName.STOP)))
     run(tmp_path, team=quitters)
     joined = RecordFile(tmp_path).read()[1]
     assert not joined["joined"]
@@ -166,7 +166,7 @@ def test_model_calls_are_counted_per_episode(tmp_path):
                 model.complete(LMRequest((), "generate"))
             return super().act(observation, inbox)
 
-    chatty = Contender("chatty", "Chatty", Chatty, {"name": "chatty"}, model)
+    chatty = Contender("chatty", "Chatty", lambda seat: Chatty(), {"name": "chatty"}, model)
     run(tmp_path, newcomer=chatty)
     alone, joined = RecordFile(tmp_path).read()[:2]
     assert (alone["model"], alone["llm"]["calls"]) == (None, 0)

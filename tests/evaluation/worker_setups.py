@@ -90,7 +90,7 @@ class Compare:
         return Comparison(
             self.world(),
             [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in range(self.scenarios)],
-            Conditions(Errand(), Contender("walkers", "Walkers", Script, {}), max_steps=12),
+            Conditions(Errand(), Contender("walkers", "Walkers", lambda seat: Script(), {}), max_steps=12),
             self.contender(counting),
             3,
         )
@@ -99,7 +99,7 @@ class Compare:
         return GridWorld(disturb_step=2 if self.newcomer == "disturbed" else None)
 
     def contender(self, model):
-        def make():
+        def make(seat):
             if self.newcomer == "asker":
                 return Asker(model)
             if self.newcomer == "curious":

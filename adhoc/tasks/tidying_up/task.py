@@ -74,6 +74,10 @@ class TidyingUp(Task):
         """Where things belong, as the robots see it."""
         return self._common_sense
 
+    def with_common_sense(self, common_sense: CommonSense) -> TidyingUp:
+        """See `Task`."""
+        return TidyingUp(common_sense, self._misplaced_below, self._reasonable_above)
+
     def begin_episode(self) -> None:
         """See `Task`."""
         self._belongs.clear()

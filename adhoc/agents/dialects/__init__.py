@@ -1,0 +1,1 @@
+"""Dialects: how a team speaks to the world, and how a stranger understands it."""

@@ -1,0 +1,1 @@
+"""A person who plays one robot, at the terminal or from a script."""

@@ -1,0 +1,1 @@
+"""Teammates that are mistaken about what they see, tell untruths, or say nothing."""

@@ -1,0 +1,1 @@
+"""Scripted team types with one habit each: explore only, nearest first, room by room."""

@@ -1,0 +1,83 @@
+"""`adhoc train plastic`: PLASTIC's library of types of teams, from nothing to checkpoints."""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rich.console import Console
+
+from adhoc.cli.dataset import whole_number
+from adhoc.cli.stages import Stages
+from adhoc.training.model_card import CARD_FILE, as_percent
+from adhoc.training.plastic_card import ONE_TYPE
+from adhoc.training.plastic_settings import PlasticTrainingSettings
+from adhoc.training.plastic_teams import TYPE_NAMES, team_types
+from adhoc.training.plastic_training import train_plastic
+
+EPILOG = """\
+After an interruption, the same command again: the demonstrations of each house that was done are kept in
+DIR/demonstrations and not run again; fits and trials begin anew. Remove that folder before training with
+another --team-checkpoints: what was demonstrated depends on it. Then
+
+  adhoc run policy=plastic policy.agent.checkpoints=DIR team=room_by_room benchmark=sample
+"""
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Train, and say how well beliefs find the type. Raises ConfigurationError for impossible arguments."""
+    defaults = PlasticTrainingSettings()
+    parser = argparse.ArgumentParser(
+        prog="adhoc train plastic",
+        description="Train, beside each type of team, the models of its behaviour and a policy.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--out", type=Path, default=Path("plastic"), metavar="DIR", help="(plastic)")
+    parser.add_argument("--seed", type=int, default=defaults.seed, metavar="N", help="(%(default)s)")
+    parser.add_argument(
+        "--type",
+        action="append",
+        choices=TYPE_NAMES,
+        metavar="NAME",
+        help=f"only this type of {', '.join(TYPE_NAMES)}; may be repeated",
+    )
+    parser.add_argument(
+        "--houses",
+        type=whole_number,
+        default=defaults.houses,
+        metavar="N",
+        help="houses in which the expert demonstrates beside each type (%(default)s)",
+    )
+    parser.add_argument(
+        "--team-checkpoints", metavar="DIR", help="a folder that `adhoc train team` made (the shipped one)"
+    )
+    parser.add_argument("--workers", type=whole_number, default=2, metavar="N", help="processes (2)")
+    options = parser.parse_args(list(arguments))
+    settings = PlasticTrainingSettings(
+        seed=options.seed, houses=options.houses, team_checkpoints=options.team_checkpoints
+    )
+    types = team_types(options.type or TYPE_NAMES, options.team_checkpoints)
+    console = Console()
+    started = time.monotonic()
+    with Stages(console) as stages:
+        report = train_plastic(settings, options.out, options.workers, stages.begin, types)
+    console.print(
+        f"{_found(report)}\n"
+        f"{options.out / CARD_FILE}: the model card; {(time.monotonic() - started) / 60:.1f} minutes",
+        soft_wrap=True,
+        highlight=False,
+    )
+    return 0
+
+
+def _found(report: Mapping[str, Any]) -> str:
+    if len(report["known"]) == 1:
+        return ONE_TYPE
+    return (
+        f"true type believed in most: {as_percent(report['found'])} of {report['episodes']} held-out "
+        f"episodes, {as_percent(report['nearly_found'])} if look-alikes count as one"
+    )

@@ -1,0 +1,142 @@
+"""Which records belong together: an episode with a newcomer, and that of the team alone."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from adhoc.core.errors import RecordError
+from adhoc.evaluation.records import Record
+
+PairKey = tuple[str, ...]
+Named = TypeVar("Named")
+
+
+@dataclass(frozen=True)
+class Pair:
+    """An episode with a newcomer and the team alone in the same scenario under the same limits."""
+
+    joined: Record
+    alone: Record
+
+
+@dataclass(frozen=True)
+class Team:
+    """A team with the model that it, or the task, asks: one block of a table."""
+
+    name: str
+    label: str
+    model: str | None
+
+
+@dataclass(frozen=True)
+class Contestant:
+    """A policy with its model, in a team: one row of a table."""
+
+    team: Team
+    policy: str
+    label: str
+    model: str | None
+
+
+def team_of(record: Record) -> Team:
+    """The team of an episode."""
+    return Team(record["team"], record["team_label"], record.get("team_model"))
+
+
+def contestant(record: Record) -> Contestant:
+    """Whose row the episode belongs to."""
+    return Contestant(team_of(record), record["policy"], str(record["policy_label"]), record["model"])
+
+
+def pair_key(record: Record) -> PairKey:
+    """Equal for an episode and that of the team alone in the same scenario under the same limits."""
+    team = team_of(record)
+    limits = (record["scenario_hash"], str(record["max_steps"]))
+    return (team.name, str(team.model), record["task_id"], *limits)
+
+
+def alone_records(records: Iterable[Record]) -> dict[PairKey, Record]:
+    """The episodes of teams alone. Raises RecordError for two of one team in one scenario."""
+    found: dict[PairKey, Record] = {}
+    for record in records:
+        if record["join_step"] is None:
+            other = found.setdefault(pair_key(record), record)
+            if other is not record:
+                raise RecordError(
+                    f"{other['episode_id']!r} and {record['episode_id']!r} are one team alone in one "
+                    "scenario; report the runs apart"
+                )
+    return found
+
+
+def pairs(records: Sequence[Record]) -> list[Pair]:
+    """All episodes with a newcomer whose team-alone episode is there, in their order.
+
+    Raises RecordError for a newcomer that was measured against another episode of the team alone.
+    """
+    alone = alone_records(records)
+    joined = (record for record in records if record["join_step"] is not None)
+    found = [Pair(record, alone[pair_key(record)]) for record in joined if pair_key(record) in alone]
+    for pair in found:
+        reference = pair.joined.get("reference_temporal_steps")
+        if reference is not None and reference != pair.alone["temporal_steps"]:
+            raise RecordError(
+                f"{pair.joined['episode_id']!r} was measured against a team alone of {reference} steps, and "
+                f"{pair.alone['episode_id']!r} took {pair.alone['temporal_steps']}: they are of different "
+                "runs; remove the one that is wrong, or report the runs apart"
+            )
+    return found
+
+
+def check_settings(records: Iterable[Record]) -> None:
+    """Raise RecordError if one row would be of episodes with different settings."""
+    first: dict[tuple[Contestant, bool], Record] = {}
+    for record in records:
+        row = (contestant(record), record["join_step"] is None)
+        other = first.setdefault(row, record)
+        if other["config_hash"] != record["config_hash"]:
+            raise RecordError(
+                f"{other['episode_id']!r} and {record['episode_id']!r} were run with different settings "
+                f"(config_hash {other['config_hash']} and {record['config_hash']}); report the runs apart, "
+                "or give one of them a name of its own"
+            )
+
+
+def team_names(records: Iterable[Record]) -> dict[Team, str]:
+    """What each team is called: its label, with its name or model where the label is not enough."""
+    return _distinct(
+        dict.fromkeys(map(team_of, records)),
+        lambda team: "",
+        lambda team: team.label,
+        [lambda team: team.model or team.name, lambda team: team.name],
+    )
+
+
+def labels(records: Iterable[Record]) -> dict[Contestant, str]:
+    """What each row is called: the policy's label, with its model or name where one team has several."""
+    return _distinct(
+        dict.fromkeys(map(contestant, records)),
+        lambda row: row.team,
+        lambda row: row.label,
+        [lambda row: row.model or row.policy, lambda row: row.policy],
+    )
+
+
+def _distinct(
+    named: Iterable[Named],
+    group: Callable[[Named], object],
+    label: Callable[[Named], str],
+    additions: Sequence[Callable[[Named], str]],
+) -> dict[Named, str]:
+    """A name for each that no other of its group has: the label, and as many additions as are needed."""
+    names = {it: label(it) for it in named}
+    for addition in additions:
+        used = Counter((group(it), name) for it, name in names.items())
+        names = {
+            it: f"{name} ({addition(it)})" if used[group(it), name] > 1 else name
+            for it, name in names.items()
+        }
+    return names

@@ -1,0 +1,1 @@
+"""Training the learned parts from nothing: houses, samples, demonstrations, fitting, model cards."""

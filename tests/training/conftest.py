@@ -1,0 +1,6 @@
+"""Training is tested with the situations that the learned robot is tested with."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "agents" / "learned"))
