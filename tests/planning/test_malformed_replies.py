@@ -25,12 +25,14 @@ from adhoc.llm.scripted import ScriptedModel
 from adhoc.planning.evaluate import LLMEvaluator
 from adhoc.planning.generate import LLMGenerator
 from adhoc.planning.gpl import GPLEvaluator, GPLGenerator
+from adhoc.planning.negotiate import LLMNegotiator
 from adhoc.planning.reflect import LLMReflector
 from adhoc.planning.sub_skill import LLMSubSkillPlanner
 
 HANDLESS = replace(CONTEXT, capability=Capability(can_manipulate=False))
 """It may search and rest, not deliver."""
 WRONG = {EMPTY, TRUNCATED, UNREADABLE, ILLEGAL, DUPLICATE, UNKNOWN_ID}
+PLANS = {"teammate_1": Call("Deliver", ("Letter|2", "Tray", "Office")), "teammate_2": Call("Rest")}
 CANDIDATES = tuple(Candidate(Call("Search", (room.id,))) for room in CONTEXT.rooms[:3])
 
 GOOD: dict[str, Any] = {
@@ -54,9 +56,18 @@ GOOD: dict[str, Any] = {
             }
         ],
     },
+    "negotiate": {
+        "analysis": "so",
+        "agree": False,
+        "objections": [{"teammate": "teammate_1", "reason": "it cannot lift that"}],
+        "sub_task": {"name": "Search", "args": ["room|3"], "reason": "unexplored"},
+    },
     "gpl_score": {"analysis": "so", "scores": [{"index": 0, "score": 7}, {"index": 1, "score": 2.5}]},
 }
+BEYOND = {"sub_task": {"name": "Deliver", "args": ["Letter|1", "Tray", "Office"], "reason": "near"}}
+"""What a robot without a hand cannot plan."""
 CORPUS = {stage: tuple(dict.fromkeys(malformed(json.dumps(good)))) for stage, good in GOOD.items()}
+CORPUS["negotiate"] += tuple(malformed(json.dumps({**GOOD["negotiate"], **BEYOND})))
 
 
 def ask(stage: str, model: LanguageModel, context: Context = HANDLESS) -> Any:
@@ -69,6 +80,8 @@ def ask(stage: str, model: LanguageModel, context: Context = HANDLESS) -> Any:
         return LLMReflector(model).judge(context, CANDIDATES[0], ())
     if stage == "sub_skill":
         return LLMSubSkillPlanner(model).next_skill(context, CANDIDATES[0].sub_task, None)
+    if stage == "negotiate":
+        return LLMNegotiator(model).propose(context, PLANS)
     if stage == "gpl_score":
         return GPLEvaluator(model).rank(context, CANDIDATES)
     return GPLGenerator(model).generate(context)
@@ -87,6 +100,10 @@ def check_answer(stage: str, answer: Any) -> None:
         assert isinstance(answer.feasible, bool)
     elif stage == "sub_skill":
         check_call(answer, {"Approach", "WalkBy", "WalkTo", "Rest", "LookAround"})
+    elif stage == "negotiate":
+        check_call(answer.sub_task, {"Search", "Rest"})
+        assert {(it.planner, it.sub_task) for it in answer.objections} <= set(PLANS.items())
+        assert all(isinstance(it.reason, str) for it in answer.objections)
     elif stage in ("evaluate", "gpl_score"):
         assert {it.sub_task for it in answer} == {it.sub_task for it in CANDIDATES}
     else:
