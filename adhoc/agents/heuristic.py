@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from collections import Counter
 from collections.abc import Sequence
-from typing import Any
 
-from adhoc.agents import communication
 from adhoc.agents.assignment import Worker, assign
-from adhoc.agents.body import Body, SkillOutcome, SkillTable
+from adhoc.agents.body import SkillOutcome, SkillTable
 from adhoc.agents.decision import doing_trace
-from adhoc.agents.memory import Memory
 from adhoc.agents.news import News
-from adhoc.agents.policy import Ask, Policy, Turn
+from adhoc.agents.policy import Ask, Turn
 from adhoc.agents.recipe import Recipe
-from adhoc.agents.roster import MemberState, Roster
-from adhoc.agents.voice import Voice
+from adhoc.agents.roster_member import RosterMember
 from adhoc.core.calls import Call
 from adhoc.core.messages import Message
 from adhoc.core.values import Action, ActionName, Capability, ObjectRecord, Observation
@@ -27,7 +21,7 @@ from adhoc.tasks.task import Task
 _SKILLS_PER_STEP = 4
 
 
-class HeuristicPolicy(Policy):
+class HeuristicPolicy(RosterMember):
     """Explore until an object needs attention, then the closest able robot deals with it.
 
     As a member (paper, appendix 'Teammates with Heuristic-Based Policy') a robot shares with its team what
@@ -57,29 +51,18 @@ class HeuristicPolicy(Policy):
         attempts: int = 3,
         retry_after: int = 30,
     ) -> None:
-        self._attempts, self._retry_after = attempts, retry_after
+        super().__init__(perception, skills, attempts, retry_after)
         self._member = member
-        self._settings = perception
-        self._skills = skills
         self._search = Call(search_skill)
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`."""
-        self._me, self._capability, self._task = me, capability, task
+        self._wake(me, capability, task, ask)
         self._by_hand = any(spec.needs_manipulation for spec in task.sub_tasks)
         self._able = capability.can_manipulate or not self._by_hand
-        self._memory = Memory(me, task, self._settings)
-        self._body = Body(self._memory, capability, self._skills)
-        self._voice = Voice(self._memory, capability, ask)
-        self._roster = Roster()
         self._recipe: Recipe | None = None
-        self._sub_task: Call | None = None
-        self._tried: Counter[str] = Counter()
-        self._unable: dict[str, float] = {}
         self._gone: list[str] = []
-        self._outbox: list[Message] = []
-        self._idle = self._stopped = self._greeted = False
-        self._observation: Observation | None = None
+        self._idle = self._greeted = False
 
     def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
         """See `Policy`."""
@@ -88,28 +71,11 @@ class HeuristicPolicy(Policy):
         self._listen(inbox)
         self._introduce()
         self._drop_needless(news)
-        report = self._voice.report(news, self._memory.attention())
-        self._outbox = [] if report is None else [report]
+        self._report(self._voice.report(news, self._memory.attention()))
         self._take_object()
         action = self._act()
         self._announce()
-        self._memory.remember_sent(self._outbox)
-        return Turn(action, tuple(self._outbox), {"doing": doing_trace(self._sub_task, self._body.call)})
-
-    def respond(self, message: Message) -> Message | None:
-        """A newcomer's `join` is answered by the own state, an `intention` by what is known."""
-        if self._observation is None:
-            return None
-        return self._voice.answer(message, self._state())
-
-    # Listening
-
-    def _listen(self, inbox: Sequence[Message]) -> None:
-        self._memory.hear(inbox)
-        for state in self._roster.hear(self._now.step, inbox):
-            self._memory.perception.tell_covered(state.covered)
-            for object_id in state.gone:
-                self._memory.lose(object_id)
+        return self._turn(action, {"doing": doing_trace(*self._doing())})
 
     def _introduce(self) -> None:
         if not self._member and not self._greeted:
@@ -147,7 +113,7 @@ class HeuristicPolicy(Policy):
         sub_task = self._task.attend(record, self._memory.places_near(record.position))
         spec = None if sub_task is None else self._task.spec(sub_task.name)
         if sub_task is None or spec is None:
-            self._put_off(record.id)
+            self._attempts.put_off(record.id, self._now.step)
             return
         holding = self._memory.held is not None
         self._recipe = Recipe(sub_task, spec, self._task, self._search.name, holding)
@@ -220,17 +186,8 @@ class HeuristicPolicy(Policy):
         if self._memory.record(object_id) is None:
             self._gone.append(object_id)
         else:
-            self._put_off(object_id)
+            self._attempts.put_off(object_id, self._now.step)
         self._recipe, self._idle = None, False
-
-    def _put_off(self, object_id: str) -> None:
-        """Leave the object for a while, or for good after so many attempts."""
-        self._tried[object_id] += 1
-        last = self._tried[object_id] >= self._attempts
-        self._unable[object_id] = math.inf if last else self._now.step + self._retry_after
-
-    def _unable_now(self) -> frozenset[str]:
-        return frozenset(name for name, until in self._unable.items() if until > self._now.step)
 
     def _wait(self) -> Action:
         """Nothing is left to explore: wait for explorers and for another attempt if useful, else stop."""
@@ -240,67 +197,28 @@ class HeuristicPolicy(Policy):
     def _will_retry(self) -> bool:
         held = self._memory.held
         pending = [record.id for record in self._memory.attention()] + ([held.id] if held is not None else [])
-        return any(self._unable.get(name, math.inf) < math.inf for name in pending)
+        return any(map(self._attempts.will_retry, pending))
 
-    def _stop(self) -> Action:
-        self._stopped = True
-        return Action(ActionName.STOP)
+    # What others are told
 
-    # Talking
+    def _talks_to_team(self) -> bool:
+        return self._member
 
-    def _announce(self) -> None:
-        """Tell everybody when the sub-task changed, and the own team where this robot is."""
-        sub_task = self._current_sub_task()
-        if self._out_of_order():
-            sub_task = None
-        if sub_task != self._sub_task:
-            self._sub_task = sub_task
-            event = "I stop." if self._out_of_order() else f"My sub-task is now: {sub_task}."
-            self._outbox.append(communication.task_state_message(event, self._state()))
-        if self._member:
-            self._outbox.append(self._member_state().message())
-        self._gone = []
+    def _busy_with(self) -> str | None:
+        return self._now.held if self._recipe is None else str(self._recipe.sub_task.args[0])
 
-    def _out_of_order(self) -> bool:
-        """Whether this robot does nothing any more after this step: stopped, or its last step of battery."""
-        return self._stopped or self._now.steps_left <= 1
+    def _is_idle(self) -> bool:
+        return self._idle
+
+    def _take_gone(self) -> list[str]:
+        gone, self._gone = self._gone, []
+        return gone
 
     def _current_sub_task(self) -> Call | None:
         if self._recipe is not None:
             return self._recipe.sub_task
         room = self._room()
         return None if room is None or self._stopped else self._task.search(room)
-
-    def _member_state(self) -> MemberState:
-        busy = self._now.held if self._recipe is None else str(self._recipe.sub_task.args[0])
-        return MemberState(
-            self._me,
-            self._position,
-            self._capability,
-            busy,
-            self._idle,
-            self._out_of_order(),
-            tuple(sorted(self._unable_now())),
-            tuple(self._gone),
-            self._memory.perception.take_covered(),
-        )
-
-    def _state(self) -> dict[str, Any]:
-        return self._voice.state(self._now, self._sub_task, self._body.call, self._out_of_order())
-
-    # Where and what
-
-    @property
-    def _now(self) -> Observation:
-        assert self._observation is not None
-        return self._observation
-
-    @property
-    def _position(self) -> tuple[float, float]:
-        return (self._now.pose.x, self._now.pose.y)
-
-    def _room(self) -> str | None:
-        return self._memory.perception.map.room_at(*self._position)
 
     def _holds_object(self) -> bool:
         assert self._recipe is not None

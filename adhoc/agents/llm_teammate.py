@@ -5,26 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from adhoc.agents import communication
-from adhoc.agents.body import Body, SkillTable
-from adhoc.agents.conduct import WAIT, Conduct
-from adhoc.agents.context import build_context
+from adhoc.agents.body import SkillTable
+from adhoc.agents.conduct import WAIT
 from adhoc.agents.crew import Crew, plan_message, read_objection
-from adhoc.agents.decision import doing_trace, negotiation_trace
-from adhoc.agents.memory import Memory
+from adhoc.agents.decision import negotiation_trace
+from adhoc.agents.llm_robot import LLMRobot
 from adhoc.agents.negotiation import Negotiation
-from adhoc.agents.policy import Ask, Policy, Turn
-from adhoc.agents.progress import Progress
-from adhoc.agents.voice import Voice
+from adhoc.agents.policy import Ask, Turn
 from adhoc.core.messages import Message, MessageKind
-from adhoc.core.plans import Assessment, Context, Objection, Replan
+from adhoc.core.plans import Assessment, Objection, Replan
 from adhoc.core.values import Action, Capability, Observation
 from adhoc.perception.perception import PerceptionSettings
 from adhoc.planning.interfaces import Negotiator, SubSkillPlanner
 from adhoc.tasks.task import Task
 
 
-class LLMTeammate(Policy):
+class LLMTeammate(LLMRobot):
     """A teammate that plans with a language model (paper, appendix 'Teammates with the LLM').
 
     It tells its abilities in the first step. From then on whoever needs a sub-task plans in its turn, when
@@ -62,41 +58,19 @@ class LLMTeammate(Policy):
         pause: int = 5,
         exchanges: Callable[[str], list[dict[str, Any]]] | None = None,
     ) -> None:
-        self._negotiator, self._sub_skill_planner = negotiator, sub_skill_planner
-        self._settings, self._skills = perception, skills
-        self._adaptive, self._rounds = adaptive, rounds
-        self._patience, self._pause = patience, pause
-        self._exchanges = exchanges or (lambda name: [])
+        super().__init__(sub_skill_planner, perception, skills, patience, pause, exchanges)
+        self._negotiator, self._adaptive, self._rounds = negotiator, adaptive, rounds
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`."""
-        self._me, self._capability, self._task = me, capability, task
-        self._memory = Memory(me, task, self._settings)
-        self._body = Body(self._memory, capability, self._skills)
-        self._voice = Voice(self._memory, capability, ask)
+        self._begin_episode(me, capability, task, ask, "the task begins")
         self._crew = Crew()
         self._negotiation = Negotiation(self._negotiator, self._crew, ask, self._rounds)
-        self._progress = Progress(self._memory, self._body, task, self._patience, "the task begins")
-        self._conduct = Conduct(
-            self._memory,
-            self._body,
-            self._progress,
-            task,
-            capability,
-            self._sub_skill_planner,
-            self._patience,
-            self._pause,
-            self._taken,
-        )
         self._joined: dict[str, str] = {}
         self._broken: dict[str, str] = {}
         self._replanned = -1
         self._objections: list[Objection] = []
-        self._trace: dict[str, Any] = {}
-        self._outbox: list[Message] = []
         self._has_begun = False
-        self._observation: Observation | None = None
-        self._taken()
 
     def confer(self, observation: Observation, inbox: Sequence[Message]) -> None:
         """See `Policy`: perceive, assess, and plan a sub-task with the others if one is needed."""
@@ -108,8 +82,7 @@ class LLMTeammate(Policy):
         self._crew.hear_all(inbox, observation.step)
         self._progress.assess(observation, news, (told,))
         self._notice_broken()
-        report = self._voice.report(news, self._progress.in_question())
-        self._outbox = [] if report is None else [report]
+        self._report(self._voice.report(news, self._progress.in_question()))
         objections = self._standing_objections()
         if self._has_begun and (objections or self._needs_sub_task()):
             self._plan(objections)
@@ -118,13 +91,9 @@ class LLMTeammate(Policy):
     def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
         """See `Policy`: execute, and tell what has happened."""
         action = self._conduct.act(observation, self._context) if self._has_begun else self._begin()
-        if self._conduct.skills:
-            self._trace["skills"] = self._conduct.skills
-        self._announce()
-        self._memory.remember_sent(self._outbox)
-        self._trace["doing"] = doing_trace(self._progress.sub_task, self._body.call)
-        trace, self._trace = self._trace, {}
-        return Turn(action, tuple(self._outbox), trace)
+        self._tell_events(self._progress.events)
+        self._outbox.append(plan_message(self._progress.sub_task, self._out_of_order()))
+        return self._end_step(action)
 
     def respond(self, message: Message) -> Message | None:
         """See `Policy`. A member that objects to this robot's plan has it planned again."""
@@ -134,7 +103,7 @@ class LLMTeammate(Policy):
         if objection is not None:
             return self._reconsider(objection, message.step)
         self._crew.hear(message, self._now.step)
-        answer = self._voice.answer(message, self._state())
+        answer = super().respond(message)
         if message.kind is MessageKind.JOIN and not self._crew.is_member(message.sender):
             self._adapt(self._joined, message.sender, f"has joined the team at step {message.step}")
         return answer
@@ -198,39 +167,7 @@ class LLMTeammate(Policy):
             changes[name] = f"{name} {change}"
             self._progress.take(Assessment(True, changes[name], Replan.TASK))
 
-    def _announce(self) -> None:
-        """What began or ended, to everybody; the plan and that this robot works, to the team."""
-        events = self._progress.events
-        if self._now.steps_left == 1 and not self._conduct.stopped:
-            events.append("My battery is empty")
-        if events:
-            text = " ".join(f"{event}." for event in events)
-            self._outbox.append(communication.task_state_message(text, self._state()))
-        self._outbox.append(plan_message(self._progress.sub_task, self._is_out_of_order()))
-
-    # Views
-
-    @property
-    def _now(self) -> Observation:
-        assert self._observation is not None
-        return self._observation
-
     def _needs_sub_task(self) -> bool:
         able = not self._conduct.stopped and self._now.steps_left > 0
         waits = self._now.step < self._progress.rest_until or self._conduct.looks_around
         return able and not waits and self._progress.replan is Replan.TASK
-
-    def _is_out_of_order(self) -> bool:
-        return self._conduct.stopped or self._now.steps_left <= 1
-
-    def _taken(self) -> list[dict[str, Any]]:
-        return self._exchanges(self._me)
-
-    def _context(self) -> Context:
-        progress = self._progress
-        return build_context(
-            self._memory, self._task, self._capability, self._now, progress.sub_task, tuple(progress.done)
-        )
-
-    def _state(self) -> dict[str, Any]:
-        return self._voice.state(self._now, self._progress.sub_task, self._body.call, self._is_out_of_order())

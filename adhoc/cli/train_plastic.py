@@ -2,17 +2,11 @@
 
 from __future__ import annotations
 
-import argparse
-import time
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
-from rich.console import Console
-
-from adhoc.cli.dataset import whole_number
-from adhoc.cli.stages import Stages
-from adhoc.training.model_card import CARD_FILE, as_percent
+from adhoc.cli.training_command import add_count, train_and_tell, training_parser
+from adhoc.training.model_card import as_percent
 from adhoc.training.plastic_card import ONE_TYPE
 from adhoc.training.plastic_settings import PlasticTrainingSettings
 from adhoc.training.plastic_teams import TYPE_NAMES, team_types
@@ -30,14 +24,13 @@ another --team-checkpoints: what was demonstrated depends on it. Then
 def main(arguments: Sequence[str]) -> int:
     """Train, and say how well beliefs find the type. Raises ConfigurationError for impossible arguments."""
     defaults = PlasticTrainingSettings()
-    parser = argparse.ArgumentParser(
-        prog="adhoc train plastic",
-        description="Train, beside each type of team, the models of its behaviour and a policy.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = training_parser(
+        "plastic",
+        "Train, beside each type of team, the models of its behaviour and a policy.",
+        "plastic",
+        defaults.seed,
+        EPILOG,
     )
-    parser.add_argument("--out", type=Path, default=Path("plastic"), metavar="DIR", help="(plastic)")
-    parser.add_argument("--seed", type=int, default=defaults.seed, metavar="N", help="(%(default)s)")
     parser.add_argument(
         "--type",
         action="append",
@@ -45,31 +38,17 @@ def main(arguments: Sequence[str]) -> int:
         metavar="NAME",
         help=f"only this type of {', '.join(TYPE_NAMES)}; may be repeated",
     )
-    parser.add_argument(
-        "--houses",
-        type=whole_number,
-        default=defaults.houses,
-        metavar="N",
-        help="houses in which the expert demonstrates beside each type (%(default)s)",
-    )
+    add_count(parser, "--houses", defaults.houses, "houses in which the expert demonstrates beside each type")
     parser.add_argument(
         "--team-checkpoints", metavar="DIR", help="a folder that `adhoc train team` made (the shipped one)"
     )
-    parser.add_argument("--workers", type=whole_number, default=2, metavar="N", help="processes (2)")
     options = parser.parse_args(list(arguments))
     settings = PlasticTrainingSettings(
         seed=options.seed, houses=options.houses, team_checkpoints=options.team_checkpoints
     )
     types = team_types(options.type or TYPE_NAMES, options.team_checkpoints)
-    console = Console()
-    started = time.monotonic()
-    with Stages(console) as stages:
-        report = train_plastic(settings, options.out, options.workers, stages.begin, types)
-    console.print(
-        f"{_found(report)}\n"
-        f"{options.out / CARD_FILE}: the model card; {(time.monotonic() - started) / 60:.1f} minutes",
-        soft_wrap=True,
-        highlight=False,
+    train_and_tell(
+        lambda begin: _found(train_plastic(settings, options.out, options.workers, begin, types)), options.out
     )
     return 0
 

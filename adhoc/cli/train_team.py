@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-import argparse
-import time
-from collections.abc import Sequence
-from pathlib import Path
-
-from rich.console import Console
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from adhoc.agents.learned.shipped import DECISION_FILE, DETECTOR_FILE, PREDICTOR_FILE
-from adhoc.cli.dataset import whole_number
-from adhoc.cli.stages import Stages
-from adhoc.training.model_card import CARD_FILE
+from adhoc.cli.training_command import add_count, train_and_tell, training_parser
+from adhoc.training.model_card import as_percent
 from adhoc.training.team_training import train_team
 from adhoc.training.training_settings import TeamTrainingSettings
 
@@ -28,52 +23,43 @@ another --placement-houses: what was demonstrated depends on it. Then
 def main(arguments: Sequence[str]) -> int:
     """Train, and say how right the networks are. Raises ConfigurationError for impossible arguments."""
     defaults = TeamTrainingSettings()
-    parser = argparse.ArgumentParser(
-        prog="adhoc train team",
-        description="Train misplaced-object detector, receptacle predictor and sub-skill decision module.",
-        epilog=EPILOG,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+    parser = training_parser(
+        "team",
+        "Train misplaced-object detector, receptacle predictor and sub-skill decision module.",
+        "learned",
+        defaults.seed,
+        EPILOG,
     )
-    parser.add_argument("--out", type=Path, default=Path("learned"), metavar="DIR", help="(learned)")
-    parser.add_argument("--seed", type=int, default=defaults.seed, metavar="N", help="(%(default)s)")
-    parser.add_argument(
+    add_count(
+        parser,
         "--placement-houses",
-        type=whole_number,
-        default=defaults.placement_houses,
-        metavar="N",
-        help="houses whose metadata teach what belongs where (%(default)s)",
+        defaults.placement_houses,
+        "houses whose metadata teach what belongs where",
     )
-    parser.add_argument(
+    add_count(
+        parser,
         "--demonstration-houses",
-        type=whole_number,
-        default=defaults.demonstration_houses,
-        metavar="N",
-        help="houses in which the expert demonstrates (%(default)s)",
+        defaults.demonstration_houses,
+        "houses in which the expert demonstrates",
     )
-    parser.add_argument("--workers", type=whole_number, default=2, metavar="N", help="processes (2)")
     options = parser.parse_args(list(arguments))
     settings = TeamTrainingSettings(
         seed=options.seed,
         placement_houses=options.placement_houses,
         demonstration_houses=options.demonstration_houses,
     )
-    console = Console()
-    started = time.monotonic()
-    with Stages(console) as stages:
-        cards = train_team(settings, options.out, options.workers, stages.begin)
-    detector, predictor, decision = (
-        cards[name]["validation"] for name in (DETECTOR_FILE, PREDICTOR_FILE, DECISION_FILE)
-    )
-    console.print(
-        f"on validation houses: misplaced-object detector {_percent(detector['accuracy'])}, "
-        f"likeliest receptacle reasonable {_percent(predictor['top_1_is_reasonable'])}, "
-        f"sub-skill decisions {_percent(decision['accuracy'])}\n"
-        f"{options.out / CARD_FILE}: the model card; {(time.monotonic() - started) / 60:.1f} minutes",
-        soft_wrap=True,
-        highlight=False,
+    train_and_tell(
+        lambda begin: _found(train_team(settings, options.out, options.workers, begin)), options.out
     )
     return 0
 
 
-def _percent(share: float | None) -> str:
-    return "-" if share is None else f"{100 * share:.1f}%"
+def _found(cards: Mapping[str, Any]) -> str:
+    detector, predictor, decision = (
+        cards[name]["validation"] for name in (DETECTOR_FILE, PREDICTOR_FILE, DECISION_FILE)
+    )
+    return (
+        f"on validation houses: misplaced-object detector {as_percent(detector['accuracy'])}, "
+        f"likeliest receptacle reasonable {as_percent(predictor['top_1_is_reasonable'])}, "
+        f"sub-skill decisions {as_percent(decision['accuracy'])}"
+    )

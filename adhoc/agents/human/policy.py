@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from enum import Enum
 from pathlib import Path
 from typing import Any
 
-from adhoc.agents import communication
 from adhoc.agents.assessment import assess_action
-from adhoc.agents.body import Body, SkillTable
+from adhoc.agents.body import SkillTable
+from adhoc.agents.communication import task_state_message
 from adhoc.agents.context import build_context
 from adhoc.agents.decision import doing_trace, skill_trace
 from adhoc.agents.human.board import Board
@@ -29,6 +28,7 @@ from adhoc.agents.human.commands import (
 )
 from adhoc.agents.human.dialog import Dialog
 from adhoc.agents.human.errand import Errand
+from adhoc.agents.human.manner import Asked, AtEnd, Manner
 from adhoc.agents.human.manual import help_text, introduction
 from adhoc.agents.human.names import Names
 from adhoc.agents.human.person import Person
@@ -37,12 +37,10 @@ from adhoc.agents.human.script import Script
 from adhoc.agents.human.short_numbers import ShortNumbers
 from adhoc.agents.human.situation import Situation
 from adhoc.agents.human.terminal import Terminal
-from adhoc.agents.memory import Memory
 from adhoc.agents.news import News, merge_news
-from adhoc.agents.policy import Ask, Policy, Turn
-from adhoc.agents.voice import Voice
+from adhoc.agents.policy import Ask, Turn
+from adhoc.agents.talking import TalkingPolicy
 from adhoc.core.calls import Call
-from adhoc.core.errors import ConfigurationError
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.plans import Context
 from adhoc.core.values import Action, ActionName, Capability, Observation
@@ -50,25 +48,7 @@ from adhoc.perception.perception import PerceptionSettings
 from adhoc.tasks.task import Task
 
 
-class Asked(str, Enum):
-    """When a person is asked while something is being done. When nothing is, always."""
-
-    STEPS = "steps"
-    """At every step."""
-    EVENTS = "events"
-    """When something has happened: things found that need attention, a robot that joined or stopped."""
-    ENDS = "ends"
-    """Never before it is over."""
-
-
-class AtEnd(str, Enum):
-    """What becomes of a robot whose person has left, once it has finished what it is at."""
-
-    STOP = "stop"
-    WAIT = "wait"
-
-
-class HumanPolicy(Policy):
+class HumanPolicy(TalkingPolicy):
     """A person plays the robot (the paper's future work: humans as teammates).
 
     The person sees the robot's memory as text (`Board`) and types sub-skills, low-level actions, or what to
@@ -112,25 +92,17 @@ class HumanPolicy(Policy):
         perception: PerceptionSettings | None = None,
         skills: SkillTable | None = None,
     ) -> None:
-        at = configured_at
-        self._asked = Asked(_one_of(f"{at}.asked", asked, [it.value for it in Asked]))
-        self._at_end = AtEnd(_one_of(f"{at}.at_end", at_end, [it.value for it in AtEnd]))
-        self._answers_itself = _one_of(f"{at}.answers", answers, ["memory", "person"]) == "memory"
-        for name, count in (("tries", tries), ("lines", lines)):
-            if count < 1:
-                raise ConfigurationError(f"{at}.{name}={count}: must be at least 1")
-        self._member, self._tries, self._lines = member, tries, lines
-        self._script_key = f"{at}.script"
+        super().__init__(perception, skills)
+        self._manner = Manner.of(asked, answers, at_end, tries, lines, configured_at)
+        self._member = member
+        self._script_key = f"{configured_at}.script"
         self._script = None if script is None else Script(Path(script).expanduser(), self._script_key)
         self._sessions, self._repeat, self._terminal = sessions, repeat, terminal
-        self._settings, self._skills = perception, skills
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`. Raises ConfigurationError if the log cannot be read."""
-        self._capability, self._task = capability, task
-        self._memory = Memory(me, task, self._settings)
-        self._errand = Errand(self._memory, Body(self._memory, capability, self._skills))
-        self._voice = Voice(self._memory, capability, ask)
+        self._wake(me, capability, task, ask)
+        self._errand = Errand(self._memory, self._body)
         self._purpose = Purpose(self._memory, task, capability)
         numbers = ShortNumbers()
         self._situation = Situation(me, capability, seed)
@@ -151,15 +123,13 @@ class HumanPolicy(Policy):
             person,
             Board(numbers),
             CommandReader(task, capability, Names(self._memory, numbers)),
-            self._tries,
+            self._manner.tries,
             self._context,
             lambda: str(self._errand),
         )
         self._events: list[str] = []
-        self._outbox: list[Message] = []
         self._begun: list[dict[str, Any]] = []
         self._greeted = self._left = self._stopped = False
-        self._observation: Observation | None = None
         self._held: str | None = None
 
     def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
@@ -172,12 +142,10 @@ class HumanPolicy(Policy):
         self._dialog.hear(inbox)
         self._greet()
         self._notice(merge_news(news, told))
-        report = self._voice.report(news, self._memory.attention())
-        self._outbox = [] if report is None else [report]
+        self._report(self._voice.report(news, self._memory.attention()))
         action = self._decide()
         self._announce()
-        self._memory.remember_sent(self._outbox)
-        return Turn(action, tuple(self._outbox), self._trace())
+        return self._turn(action, self._trace())
 
     def respond(self, message: Message) -> Message | None:
         """See `Policy`: what the robot knows, after the person's own words if it is to be asked."""
@@ -186,8 +154,8 @@ class HumanPolicy(Policy):
         self._situation.ask(message)
         if message.kind is MessageKind.JOIN:
             self._dialog.happened.append(f"{message.sender} joined: {message.text}")
-        answer = self._voice.answer(message, self._state())
-        if answer is None or self._answers_itself or self._left:
+        answer = super().respond(message)
+        if answer is None or self._manner.answers_itself or self._left:
             return answer
         words = self._dialog.own_words(message, self._now.step)
         if words is None:
@@ -217,13 +185,13 @@ class HumanPolicy(Policy):
         if self._stopped or self._now.steps_left <= 0:
             return self._stop()
         due = self._is_due()
-        for _ in range(self._lines):
+        for _ in range(self._manner.lines):
             if not due and self._errand.is_busy:
                 action = self._go_on()
                 if action is not None:
                     return action
             elif self._left:
-                return self._stop() if self._at_end is AtEnd.STOP else WAIT
+                return self._stop() if self._manner.at_end is AtEnd.STOP else WAIT
             else:
                 command = self._dialog.next_command(self._now.step)
                 if command is None:
@@ -238,7 +206,9 @@ class HumanPolicy(Policy):
         """Whether the person is asked in the middle of something."""
         if self._left:
             return False
-        return self._asked is Asked.STEPS or (self._asked is Asked.EVENTS and bool(self._dialog.happened))
+        return self._manner.asked is Asked.STEPS or (
+            self._manner.asked is Asked.EVENTS and bool(self._dialog.happened)
+        )
 
     def _go_on(self) -> Action | None:
         """The next action of what is being done; None if it is over."""
@@ -264,7 +234,7 @@ class HumanPolicy(Policy):
             case Leave():
                 self._leave()
             case Say(text):
-                self._outbox.append(communication.task_state_message(text, self._state()))
+                self._outbox.append(task_state_message(text, self._state()))
                 return False
             case Intend(sub_task):
                 self._purpose.tell(sub_task)
@@ -306,11 +276,7 @@ class HumanPolicy(Policy):
         if self._now.held != self._held:
             self._held = self._now.held
             self._events.append(f"I hold {self._held or 'nothing'}")
-        if self._now.steps_left == 1 and not self._stopped:
-            self._events.append("My battery is empty")
-        if self._events:
-            text = " ".join(f"{event}." for event in self._events)
-            self._outbox.append(communication.task_state_message(text, self._state()))
+        self._tell_events(self._events)
 
     # What is seen
 
@@ -320,26 +286,17 @@ class HumanPolicy(Policy):
             self._memory, self._task, self._capability, self._now, purpose.sub_task, tuple(purpose.done)
         )
 
-    def _state(self) -> dict[str, Any]:
-        stopped = self._stopped or self._now.steps_left <= 1
-        return self._voice.state(self._now, self._purpose.sub_task, self._errand.skill, stopped)
+    def _has_stopped(self) -> bool:
+        return self._stopped
+
+    def _doing(self) -> tuple[Call | None, Call | None]:
+        return self._purpose.sub_task, self._errand.skill
 
     def _trace(self) -> dict[str, Any]:
-        trace: dict[str, Any] = {"doing": doing_trace(self._purpose.sub_task, self._errand.skill)}
+        trace: dict[str, Any] = {"doing": doing_trace(*self._doing())}
         if self._begun:
             trace["skills"] = self._begun
         counts = self._dialog.take_counts()
         if counts:
             trace["person"] = counts
         return trace
-
-    @property
-    def _now(self) -> Observation:
-        assert self._observation is not None
-        return self._observation
-
-
-def _one_of(key: str, value: str, known: Sequence[str]) -> str:
-    if value not in known:
-        raise ConfigurationError(f"{key}={value}: must be one of {', '.join(known)}")
-    return value

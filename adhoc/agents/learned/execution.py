@@ -52,8 +52,7 @@ class Execution:
         """The object that it is after or is putting; None while it explores."""
         self.idle = False
         """Whether nothing was left to explore when it last tried."""
-        self.gone: list[str] = []
-        """Objects that were not where they were believed to be, since the policy last took them."""
+        self._gone: list[str] = []
 
     @property
     def exploring(self) -> bool:
@@ -102,6 +101,11 @@ class Execution:
         """Leave the object alone: it needs nothing any more, or another robot takes it."""
         self.object_id, self._calls = None, []
         self._body.interrupt()
+
+    def take_gone(self) -> list[str]:
+        """Objects that were not where they were believed to be, since this was last asked."""
+        gone, self._gone = self._gone, []
+        return gone
 
     def place_known(self, now: Observation) -> bool:
         """Whether there is a target for what is held."""
@@ -155,6 +159,6 @@ class Execution:
         if now.held is not None and self._target is not None:
             self._refusals.put_off(refusal_of(self._target), now.step)
         elif object_id is not None and self._memory.record(object_id) is None:
-            self.gone.append(object_id)
+            self._gone.append(object_id)
         elif object_id is not None:
             self._attempts.put_off(object_id, now.step)

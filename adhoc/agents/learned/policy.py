@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
-from typing import Any
 
-from adhoc.agents import communication
 from adhoc.agents.attempts import Attempts
-from adhoc.agents.body import Body, SkillTable
+from adhoc.agents.body import SkillTable
 from adhoc.agents.decision import doing_trace
 from adhoc.agents.learned.awareness import Awareness
 from adhoc.agents.learned.decision import SubSkillKind
 from adhoc.agents.learned.execution import Execution
 from adhoc.agents.learned.places import KnownPlaces
 from adhoc.agents.learned.shipped import Decide, common_sense_in, decision_in, fingerprint_of
-from adhoc.agents.memory import Memory
 from adhoc.agents.news import News
-from adhoc.agents.policy import Ask, Policy, Turn
-from adhoc.agents.roster import MemberState, Roster
-from adhoc.agents.voice import Voice
+from adhoc.agents.policy import Ask, Turn
+from adhoc.agents.roster_member import RosterMember
 from adhoc.core.calls import Call
 from adhoc.core.geometry import planar_distance
 from adhoc.core.messages import Message
@@ -31,7 +27,7 @@ WAIT = Action(ActionName.ROTATE_RIGHT)
 _CHOICES_PER_STEP = 4
 
 
-class LearnedPolicy(Policy):
+class LearnedPolicy(RosterMember):
     """A network says what kind of sub-skill comes next, and rules execute it.
 
     What is misplaced and where it belongs is judged by the learned detector and predictor, in place of the
@@ -66,13 +62,13 @@ class LearnedPolicy(Policy):
         retry_after: int = 30,
         patience: int = 10,
     ) -> None:
+        super().__init__(perception, skills, attempts, retry_after)
         self._decide = decision_in(checkpoints) if decide is None else decide
         self._common_sense = common_sense_in(checkpoints) if common_sense is None else common_sense
         self._fingerprint = "" if common_sense is None else common_sense.fingerprint
         if decide is None or common_sense is None:
             self._fingerprint = fingerprint_of(checkpoints) + self._fingerprint
-        self._settings, self._skills = perception, skills
-        self._most_attempts, self._retry_after, self._patience = attempts, retry_after, patience
+        self._patience = patience
 
     @property
     def fingerprint(self) -> str:
@@ -81,13 +77,7 @@ class LearnedPolicy(Policy):
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`."""
-        self._me, self._capability = me, capability
-        self._task = task.with_common_sense(self._common_sense)
-        self._memory = Memory(me, self._task, self._settings)
-        self._voice = Voice(self._memory, capability, ask)
-        self._roster = self._make_roster()
-        self._body = Body(self._memory, capability, self._skills)
-        self._attempts = Attempts(self._most_attempts, self._retry_after)
+        self._wake(me, capability, task.with_common_sense(self._common_sense), ask)
         self._execution = Execution(
             self._memory,
             self._body,
@@ -98,12 +88,8 @@ class LearnedPolicy(Policy):
         )
         self._awareness = Awareness(self._memory, self._roster, capability)
         self._handling: Call | None = None
-        self._sub_task: Call | None = None
-        self._outbox: list[Message] = []
-        self._stopped = False
         self._chosen_at = -1
         self._chosen_by: Hashable = None
-        self._observation: Observation | None = None
 
     def act(self, observation: Observation, inbox: Sequence[Message]) -> Turn:
         """See `Policy`."""
@@ -111,31 +97,10 @@ class LearnedPolicy(Policy):
         self._sighting, news = self._memory.observe(observation)
         self._listen(inbox)
         self._drop_needless(news)
-        report = self._voice.report(news, self._memory.attention())
-        self._outbox = [] if report is None else [report]
+        self._report(self._voice.report(news, self._memory.attention()))
         action = self._act()
         self._announce()
-        self._memory.remember_sent(self._outbox)
-        return Turn(action, tuple(self._outbox), {"doing": doing_trace(self._sub_task, self._body.call)})
-
-    def respond(self, message: Message) -> Message | None:
-        """A newcomer's `join` is answered by the own state, an `intention` by what is known."""
-        if self._observation is None:
-            return None
-        return self._voice.answer(message, self._state())
-
-    # Listening
-
-    def _make_roster(self) -> Roster:
-        """What the robot knows the others by; its memory is there already."""
-        return Roster()
-
-    def _listen(self, inbox: Sequence[Message]) -> None:
-        self._memory.hear(inbox)
-        for state in self._roster.hear(self._now.step, inbox):
-            self._memory.perception.tell_covered(state.covered)
-            for object_id in state.gone:
-                self._memory.lose(object_id)
+        return self._turn(action, {"doing": doing_trace(*self._doing())})
 
     def _drop_needless(self, news: News) -> None:
         """Leave an object that turns out to be in place, or that a nearer member is after as well."""
@@ -187,7 +152,7 @@ class LearnedPolicy(Policy):
             self._now,
             self._execution.place_known(self._now),
             self._execution.idle,
-            self._attempts.pending(self._now.step),
+            self._unable_now(),
         )
         return self._decide(situation)
 
@@ -206,66 +171,25 @@ class LearnedPolicy(Policy):
             self._now.held,
             self._execution.idle,
             frozenset(record.id for record in self._memory.attention()),
-            self._attempts.pending(self._now.step),
+            self._unable_now(),
             tuple(
                 (state.name, state.busy, state.idle, state.stopped) for state in self._roster.members.values()
             ),
         )
 
-    def _stop(self) -> Action:
-        self._stopped = True
-        return Action(ActionName.STOP)
+    # What others are told
 
-    # Talking
+    def _busy_with(self) -> str | None:
+        return self._execution.object_id or self._now.held
 
-    def _announce(self) -> None:
-        """Tell everybody when the sub-task changed, and the own team where this robot is and what it does."""
-        over = self._out_of_order()
-        sub_task = None if over else self._current_sub_task()
-        if sub_task != self._sub_task:
-            self._sub_task = sub_task
-            event = "I stop." if over else f"My sub-task is now: {sub_task}."
-            self._outbox.append(communication.task_state_message(event, self._state()))
-        self._tell_team()
+    def _is_idle(self) -> bool:
+        return self._execution.idle
 
-    def _tell_team(self) -> None:
-        """Tell the own team where this robot is and what it does."""
-        self._outbox.append(self._member_state().message())
-
-    def _member_state(self) -> MemberState:
-        gone, self._execution.gone = tuple(self._execution.gone), []
-        return MemberState(
-            self._me,
-            self._position,
-            self._capability,
-            self._execution.object_id or self._now.held,
-            self._execution.idle,
-            self._out_of_order(),
-            tuple(sorted(self._attempts.pending(self._now.step))),
-            gone,
-            self._memory.perception.take_covered(),
-        )
-
-    def _out_of_order(self) -> bool:
-        """Whether this robot does nothing any more after this step: stopped, or its last step of battery."""
-        return self._stopped or self._now.steps_left <= 1
+    def _take_gone(self) -> list[str]:
+        return self._execution.take_gone()
 
     def _current_sub_task(self) -> Call | None:
         if self._execution.object_id is not None or self._now.held is not None:
             return self._handling
-        room = self._memory.perception.map.room_at(*self._position)
+        room = self._room()
         return None if room is None else self._task.search(room)
-
-    def _state(self) -> dict[str, Any]:
-        return self._voice.state(self._now, self._sub_task, self._body.call, self._out_of_order())
-
-    # Where
-
-    @property
-    def _now(self) -> Observation:
-        assert self._observation is not None
-        return self._observation
-
-    @property
-    def _position(self) -> tuple[float, float]:
-        return (self._now.pose.x, self._now.pose.y)

@@ -64,6 +64,5 @@ class LearnedNewcomer(LearnedPolicy):
             self._notice(behaviour)
         self._strangers.look(self._now.step, robots)
 
-    def _tell_team(self) -> None:
-        """There is no team that shares a private talk with it."""
-        self._member_state()
+    def _talks_to_team(self) -> bool:
+        return False
