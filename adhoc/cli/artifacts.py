@@ -7,8 +7,8 @@ from pathlib import Path
 from adhoc.evaluation.contender import EpisodeKey
 from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.records import Record
-from adhoc.evaluation.run import Artifact
 from adhoc.evaluation.transcript import write_transcript
+from adhoc.experiments.run import Artifact
 
 
 def artifacts_for(folder: Path, pictures: bool, transcript: bool) -> list[Artifact]:

@@ -14,10 +14,10 @@ from adhoc.cli.build import TARGET
 from adhoc.cli.contestants import Components
 from adhoc.cli.model_chain import caps_of
 from adhoc.core.errors import AdhocError
-from adhoc.evaluation.folder import RunFolder
-from adhoc.evaluation.run import Progress, RunSummary
-from adhoc.evaluation.workers.comparison import Comparison
-from adhoc.evaluation.workers.parent import run_in_workers
+from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.run import Progress, RunSummary
+from adhoc.experiments.workers.comparison import Comparison
+from adhoc.experiments.workers.parent import run_in_workers
 from adhoc.llm.model import LanguageModel
 from adhoc.llm.offline.reasoner import OfflineReasoner
 

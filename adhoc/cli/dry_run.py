@@ -16,14 +16,14 @@ from adhoc.cli.model_chain import caps_of, price_of, provider_model
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError, MissingDependency
 from adhoc.core.resources import data_dir
-from adhoc.evaluation.cost_table import ALL_STAGES, Use, dollars, stage_rows
-from adhoc.evaluation.estimate import Spread, spread_evenly, spread_of
-from adhoc.evaluation.folder import RunFolder
-from adhoc.evaluation.progress import ConsoleProgress
 from adhoc.evaluation.records import Record, RecordFile
-from adhoc.evaluation.run import run_comparison
+from adhoc.experiments.estimate import Spread, spread_evenly, spread_of
+from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.progress import ConsoleProgress
+from adhoc.experiments.run import run_comparison
 from adhoc.llm.model import LMRequest, LMResponse, Wrapper
 from adhoc.llm.prices import Price
+from adhoc.reporting.cost_table import ALL_STAGES, Use, dollars, stage_rows
 
 SCENARIOS = 4
 """So many scenarios are run."""

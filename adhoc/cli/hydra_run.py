@@ -26,10 +26,10 @@ from adhoc.cli.schema import register_schema
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import AdhocError, ConfigurationError
 from adhoc.core.resources import data_dir
-from adhoc.evaluation.cost_table import cost_table
-from adhoc.evaluation.folder import RunFolder
-from adhoc.evaluation.folder_lock import locked
-from adhoc.evaluation.progress import ConsoleProgress
+from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.folder_lock import locked
+from adhoc.experiments.progress import ConsoleProgress
+from adhoc.reporting.cost_table import cost_table
 
 SWEEP = ("-m", "--multirun")
 SWEPT = (*GROUPS, "join_step", "seed", "max_steps")

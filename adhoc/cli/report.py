@@ -9,11 +9,11 @@ from pathlib import Path
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.common_sense import agreement_markdown, agreement_table
-from adhoc.evaluation.cost_table import cost_markdown, cost_table
-from adhoc.evaluation.ordering import ordering_markdown, ordering_tables
-from adhoc.evaluation.prediction_table import prediction_markdown, prediction_table
 from adhoc.evaluation.records import Record
-from adhoc.evaluation.report import make_report, read_folders, to_markdown, to_table
+from adhoc.reporting.cost_table import cost_markdown, cost_table
+from adhoc.reporting.ordering import ordering_markdown, ordering_tables
+from adhoc.reporting.prediction_table import prediction_markdown, prediction_table
+from adhoc.reporting.report import make_report, read_folders, to_markdown, to_table
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -47,7 +47,7 @@ REQUIRED: Mapping[str, type | tuple[type, ...]] = {
     "library_version": str,
     "config_hash": str,
 }
-"""The fields that every record has, with their types; records hold more (see `evaluation.run`)."""
+"""The fields that every record has, with their types; records hold more (see `experiments.run`)."""
 
 
 class TornRecordWarning(UserWarning):

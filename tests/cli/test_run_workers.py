@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 
 from adhoc.cli.main import main
-from adhoc.evaluation.folder_lock import locked
 from adhoc.evaluation.records import RecordFile, checked_part
+from adhoc.experiments.folder_lock import locked
 
 SHORT = ("policy=irot", "join_step=3", "limit=2", "max_steps=25", "pictures=false", "transcript=false")
 LONG = ("policy=random", "team.agent._target_=adhoc.agents.random_policy.RandomPolicy", "pictures=false")

@@ -21,9 +21,9 @@ from adhoc.evaluation.common_sense import (
     judgement_counts,
 )
 from adhoc.evaluation.contender import Conditions, Contender
-from adhoc.evaluation.folder import RunFolder
 from adhoc.evaluation.records import RecordFile
-from adhoc.evaluation.run import run_comparison
+from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.run import run_comparison
 from adhoc.llm.counting import CountingModel
 from adhoc.llm.episode_model import EpisodeModel
 from adhoc.llm.ledger.recording import LedgerModel

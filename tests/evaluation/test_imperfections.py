@@ -19,12 +19,12 @@ from adhoc.core.values import Action, ActionName, Capability, Pose
 from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
 from adhoc.evaluation.episode import run_episode
 from adhoc.evaluation.episode_result import Ending
-from adhoc.evaluation.folder import RunFolder
 from adhoc.evaluation.imperfections import PERFECT, Imperfections
 from adhoc.evaluation.records import RecordFile
-from adhoc.evaluation.run import run_comparison
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Displacement, Member
+from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.run import run_comparison
 from adhoc.houses.samples import sample_house
 from adhoc.tasks.tidying_up import TidyingUp
 from adhoc.testing.world_contract import contract_house

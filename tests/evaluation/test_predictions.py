@@ -24,11 +24,11 @@ from adhoc.agents.policy import Turn
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Action, ActionName
 from adhoc.evaluation.episode import run_episode
-from adhoc.evaluation.prediction_table import prediction_markdown, prediction_table
 from adhoc.evaluation.predictions import Doings, Foresight
 from adhoc.evaluation.transcript import write_transcript
 from adhoc.planning.gpl import GPLEvaluator, GPLGenerator
 from adhoc.planning.reflect import AcceptFirst
+from adhoc.reporting.prediction_table import prediction_markdown, prediction_table
 
 
 def doings(*sub_tasks: str | None) -> Doings:

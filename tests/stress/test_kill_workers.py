@@ -17,7 +17,7 @@ from http_model import URL
 from whole_runs import SMALL, provider, records_of, run_undisturbed
 
 from adhoc.cli.main import main
-from adhoc.evaluation.workers import parent
+from adhoc.experiments.workers import parent
 from adhoc.testing.loopback_provider import LoopbackProvider
 
 KILLS, KILLS_OF_A_RUN, MOST_RUNS = 100, 12, 60

@@ -1,0 +1,1 @@
+"""Many episodes: planned, run in one or several processes, recorded one by one, and resumed."""

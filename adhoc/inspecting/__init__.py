@@ -1,0 +1,1 @@
+"""Looking into one episode: what happened, what was decided and why, as pages, pictures and films."""
