@@ -16,8 +16,8 @@ from adhoc.evaluation.episode import run_episode
 from adhoc.evaluation.exchanges import TranscribingModel
 from adhoc.evaluation.floor_drawing import draw_floor_plan, footprint
 from adhoc.evaluation.picture import draw_episode
+from adhoc.evaluation.recording import make_record
 from adhoc.evaluation.transcript import write_transcript
-from adhoc.experiments.run import make_record
 from adhoc.llm.model import LMRequest
 from adhoc.llm.scripted import ScriptedModel
 
