@@ -76,7 +76,11 @@ def test_seats_are_written_as_json_has_them(key):
         (["+team.seats.1=heuristic"], "must give a policy for each seat"),
         (["+team.seats.1.name=x"], "team.seats.1: field 'agent' is missing"),
         (["+team.seats.1.agent._target_=adhoc.nothing.X"], "team.seats.1.agent._target_=adhoc.nothing.X"),
-        ([f"+team.seats.1.agent._target_={RANDOM}", "+team.seats.1.agent.x=1"], "team.seats.1.agent"),
+        ([f"+team.seats.1.agent._target_={RANDOM}", "+team.seats.1.agent.x=1"], "team.seats.1.agent: "),
+        (
+            [f"+team.seats.1.agent._target_={RANDOM}", "+team.seats.1.agent.part._target_=adhoc.nothing.X"],
+            "team.seats.1.agent.part._target_=adhoc.nothing.X",
+        ),
     ],
 )
 def test_wrong_seats_are_named(overrides, told):

@@ -152,6 +152,20 @@ def test_an_unknown_type_is_refused(capsys):
     assert "argument --type: invalid choice: 'dancers'" in capsys.readouterr().err
 
 
+def test_the_command_trains_what_is_asked_for(monkeypatch, tmp_path):
+    trained = []
+
+    def train(settings, out, workers, begin, types):
+        trained.append((settings, out, workers, list(types), types["learned"].make.keywords))
+        return {"known": ["learned"]}
+
+    monkeypatch.setattr(train_plastic_command, "train_plastic", train)
+    asked = "--type learned --type heuristic --houses 3 --seed 5 --workers 1 --team-checkpoints mine"
+    assert main(["train", "plastic", "--out", str(tmp_path), *asked.split()]) == 0
+    settings = PlasticTrainingSettings(seed=5, houses=3, team_checkpoints="mine")
+    assert trained == [(settings, tmp_path, 1, ["learned", "heuristic"], {"checkpoints": "mine"})]
+
+
 def reported(trials, types, monkeypatch, capsys, tmp_path):
     """What the command says of these trials, and the lines of the card about them."""
     report = report_of(trials, types)

@@ -173,7 +173,8 @@ class CommandReader:
     def _call(self, verb: str, words: list[str], specs: Sequence[CallSpec], what: str) -> Call:
         """The call that is meant: names may be cut short, as long as the arguments fit one of them only."""
         meant = [it for it in specs if it.name.casefold() == verb.casefold()]
-        meant = meant or [it for it in specs if it.name.casefold().startswith(verb.casefold())]
+        if not meant and len(verb) > 1:  # one letter, such as a key with Caps Lock on, begins no name
+            meant = [it for it in specs if it.name.casefold().startswith(verb.casefold())]
         if not meant:
             raise CommandError(self._unknown(verb, specs, what))
         fitting: list[Call] = []

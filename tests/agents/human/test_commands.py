@@ -24,7 +24,7 @@ from adhoc.agents.human.commands import (
 from adhoc.agents.human.names import Names
 from adhoc.agents.human.short_numbers import ShortNumbers
 from adhoc.agents.memory import Memory
-from adhoc.core.calls import Call
+from adhoc.core.calls import Call, CallSpec
 from adhoc.core.errors import CommandError
 from adhoc.core.values import Action, ActionName, Capability
 from adhoc.tasks.tidying_up import TidyingUp
@@ -57,6 +57,7 @@ def actions(*names: str) -> DoActions:
         ("stop", Stop()),
         ("leave", Leave()),
         ("say  hello  there ", Say("hello  there ")),
+        ("SAY Hello", Say("Hello")),
         ("wait", actions("RotateRight")),
         ("wait 3", actions("RotateRight", "RotateRight", "RotateRight")),
         ("w", actions("MoveAhead")),
@@ -75,10 +76,12 @@ def actions(*names: str) -> DoActions:
         ("pick mug_1", DoSkill(Call("PickupObject", ("Mug_1",)))),
         ("puto 1 2 4", DoSkill(Call("PutObject", ("Mug_1", "Sink_1", "room_2")))),
         ("puto 1 2", DoSkill(Call("PutObject", ("Mug_1", "Sink_1", "room_2")))),
+        ("puto 1 floor 4", DoSkill(Call("PutObject", ("Mug_1", "Floor", "room_2")))),
         ("do stop", DoSkill(Call("Stop"))),
         ("task explore 4", Intend(Call("Explore", ("room_2",)))),
         ("task re-place 1 sink kitchen", Intend(Call("Re-place", ("Mug_1", "Sink", "Kitchen")))),
         ("task none", Intend(None)),
+        ("task None", Intend(None)),
     ],
 )  # fmt: skip
 def test_a_line_means(line, command):
@@ -113,6 +116,9 @@ def test_what_is_in_the_hand_need_not_be_said():
         ("wait soon", "after `wait` only a number"),
         ("w 101", "after `w` only a number"),
         ("w ²", "after `w` only a number"),
+        ("w 2 3", "after `w` only a number"),
+        ("w " + "9" * 5000, "after `w` only a number"),
+        ("W", "`W` is no command"),
         ("w" * (MAX_ACTIONS + 1), "keys stand alone"),
         ("ww 2", "keys stand alone"),
         ("stop now", "Stop takes 0 arguments, not 1"),
@@ -123,6 +129,7 @@ def test_what_is_in_the_hand_need_not_be_said():
         ("help me", "`help` stands alone"),
         ("leave now", "`leave` stands alone"),
         ("task fly", "`fly` is no sub-task"),
+        ("task none now", "`none` is no sub-task"),
         ("task re-place 1 s!nk kitchen", "<receptacle_type> must be one word"),
         ("puto 1 9", "which room '9' is in must be said"),
         ("\x1b[2J", "is no command"),
@@ -153,6 +160,19 @@ def test_a_robot_without_a_hand_is_offered_no_commands_for_one():
 def test_a_robot_that_cannot_move_is_not_asked_to():
     with pytest.raises(CommandError, match="no navigation ability"):
         reader(Capability(can_navigate=False)).read("w")
+
+
+class Going(TidyingUp):
+    sub_skills = (CallSpec("Go", (), ""), CallSpec("GoBack", (), ""))
+
+
+def test_a_name_stands_for_itself_and_a_beginning_must_fit_one_alone():
+    memory = Memory("robot", Going())
+    going = CommandReader(Going(), Capability(), Names(memory, ShortNumbers()))
+    assert going.read("GO") == DoSkill(Call("Go"))
+    assert going.read("gob") == DoSkill(Call("GoBack"))
+    with pytest.raises(CommandError, match="`g` could be Go or GoBack"):
+        going.read("g")
 
 
 def test_ids_that_differ_in_case_alone_must_be_spelt():

@@ -73,6 +73,13 @@ class TestCommands:
         assert texts(robot.act()) == ["come here", "now"]
         assert robot.turns[0].outbox[0].kind is MessageKind.TASK_STATE
 
+    def test_it_goes_to_everybody_with_the_robot_s_state(self, tmp_path):
+        robot = Robot(scripted(tmp_path, "task stop", "say hello", "w"))
+        said, _ = robot.act(steps_left=77).outbox
+        assert said.recipient is None
+        assert said.payload["steps_left"] == 77
+        assert said.payload["sub_task"] == {"name": "Stop", "args": []}
+
     def test_a_sub_skill_is_announced_with_the_sub_task_that_it_serves(self, tmp_path):
         robot = Robot(scripted(tmp_path, "wait", "go mug_1"))
         robot.act()
@@ -117,6 +124,17 @@ class TestCommands:
         robot.act()
         assert texts(robot.act(held="Mug_1")) == ["I hold Mug_1."]
 
+    def test_a_robot_that_stops_is_about_nothing_any_more(self, tmp_path):
+        robot = Robot(scripted(tmp_path, "task stop", "go 0 1", "stop", asked="steps"))
+        robot.act()
+        assert robot.turns[0].trace["doing"] == {"sub_task": "Stop", "sub_skill": "GoToPoint 0 1"}
+        assert robot.act().trace["doing"] == {"sub_task": None, "sub_skill": None}
+
+    def test_an_empty_battery_stops_the_robot_without_a_question(self, tmp_path):
+        robot = Robot(scripted(tmp_path, "w"))
+        assert str(robot.act(steps_left=0).action) == "Stop"
+        assert person(robot) == {}
+
 
 class TestNonsense:
     def test_it_is_counted_and_asked_again_so_often_then_the_robot_waits_a_step(self, tmp_path):
@@ -153,6 +171,29 @@ class TestLeaving:
         robot = Robot(scripted(tmp_path, "w 3", "leave", asked="steps"))
         assert robot.actions(4) == ["MoveAhead", "MoveAhead", "MoveAhead", "Stop"]
 
+    def test_a_person_may_leave_instead_of_an_answer(self, tmp_path):
+        robot = Robot(scripted(tmp_path, "w 2", "leave", "d", answers="person", member=True))
+        robot.act()
+        robot.policy.respond(TestQuestions.INTENTION)
+        assert robot.actions(2) == ["MoveAhead", "Stop"]
+
+
+@pytest.mark.parametrize("last", ["leave", "stop"])
+def test_what_has_ended_in_one_episode_has_not_in_the_next(tmp_path, last):
+    policy = scripted(tmp_path, "w", last)
+    assert [Robot(policy).actions(3) for _ in range(2)] == [["MoveAhead", "Stop", "Stop"]] * 2
+
+
+@pytest.mark.parametrize("member", [False, True])
+def test_a_newcomer_greets_in_every_episode_and_a_member_never(tmp_path, member):
+    policy = scripted(tmp_path, "w", member=member)
+    asked: list[MessageKind] = []
+    for _ in range(2):
+        robot = Robot(policy)
+        policy.reset("robot", Capability(), TidyingUp(), 0, lambda it: asked.append(it.kind) or ())
+        robot.actions(2)
+    assert asked == ([] if member else [MessageKind.JOIN] * 2)
+
 
 FOUND = Message(
     MessageKind.DETECTION,
@@ -162,6 +203,30 @@ FOUND = Message(
     "teammate_1",
     1,
 )
+
+
+SETTLED = replace(
+    FOUND,
+    payload={"objects": [{"id": "Mug_1", "category": "Mug", "position": [2, 0, 1], "misplaced": False}]},
+)
+STOPPED = Message(MessageKind.TASK_STATE, "I stop.", {"stopped": True}, None, "teammate_1", 1)
+
+
+@pytest.mark.parametrize("message", [SETTLED, STOPPED])
+def test_a_person_is_told_what_is_over(tmp_path, message):
+    robot = Robot(scripted(tmp_path, "w", "s 9", "a"))
+    robot.act()
+    robot.act([FOUND])
+    assert str(robot.act([message]).action) == "MoveLeft"
+
+
+def test_a_short_number_stays_with_its_object_when_a_nearer_one_is_found(tmp_path):
+    robot = Robot(scripted(tmp_path, "wait", "wait", "go 1"))
+    robot.know(MUG)
+    robot.act()
+    robot.know(replace(MUG, id="Cup_1", position=(1.0, 0.0, 0.8)))
+    robot.act()
+    assert robot.act().trace["skills"][0]["chosen"] == "GoToObject Mug_1"
 
 
 @pytest.mark.parametrize(
@@ -245,6 +310,12 @@ class TestSessions:
         assert "`do NAME ...`" in shown
         assert "GoToObject <object>: " in shown
         assert shown.count("=== You play") == 1
+
+    def test_the_person_is_told_what_this_robot_can_do(self, monkeypatch, tmp_path):
+        monkeypatch.setattr("sys.stdin", io.StringIO("w\n"))
+        monkeypatch.setattr("sys.stdout", shown := io.StringIO())
+        Robot(HumanPolicy(sessions=tmp_path), Capability(can_manipulate=False)).act()
+        assert "Your robot has no hand" in shown.getvalue()
 
     def test_what_strangers_say_brings_no_commands_for_the_terminal(self, monkeypatch, tmp_path):
         monkeypatch.setattr("sys.stdin", io.StringIO("w\n"))

@@ -66,6 +66,21 @@ def test_a_terminal_that_was_closed_is_the_end(pipe):
     assert Terminal(closed, io.StringIO()).ask("> ") is None
 
 
+def test_a_source_that_cannot_be_read_is_the_end(pipe):
+    for_writing_only = pipe[1]
+    assert Terminal(for_writing_only, io.StringIO()).ask("> ") is None
+
+
+class HungUp(io.StringIO):
+    def flush(self):
+        raise BrokenPipeError
+
+
+def test_a_person_whose_terminal_is_gone_has_left_and_is_not_nobody():
+    terminal = Terminal(io.StringIO("w\n"), HungUp(), must_begin=True)
+    assert (terminal.ask("> "), terminal.is_empty) == (None, False)
+
+
 def test_what_a_terminal_cannot_show_is_replaced(pipe):
     narrow = io.TextIOWrapper(io.BytesIO(), encoding="ascii")
     Terminal(pipe[0], narrow).show("Kü\u4e2d|\n")
@@ -96,3 +111,12 @@ def test_a_person_at_a_terminal_is_there_even_if_the_first_thing_is_to_leave():
         sink.write(b"\x04")
         terminal = Terminal(source, io.StringIO(), must_begin=True)
         assert (terminal.ask(""), terminal.is_empty) == (None, False)
+
+
+def test_what_a_terminal_echoes_is_not_shown_again():
+    ours, theirs = pty.openpty()
+    with open(theirs, encoding="utf-8") as source, open(ours, "wb", buffering=0) as sink:
+        sink.write(b"explore\n")
+        shown = io.StringIO()
+        assert Terminal(source, shown).ask("> ") == "explore"
+    assert shown.getvalue() == "> "

@@ -100,7 +100,9 @@ def test_another_kind_is_refused(path):
         load_checkpoint(path, "decision", SHAPES)
 
 
-@pytest.mark.parametrize("metadata", [None, {"adhoc": "{"}, {"adhoc": "[]"}, {"format": "pt"}])
+@pytest.mark.parametrize(
+    "metadata", [None, {"adhoc": "{"}, {"adhoc": "[]"}, {"adhoc": '{"kind": "judge"}'}, {"format": "pt"}]
+)
 def test_a_foreign_safetensors_file_is_refused(tmp_path, metadata):
     from safetensors.numpy import save_file
 
@@ -151,11 +153,12 @@ def test_the_file_by_hand_is_right_but_for_what_tests_do_to_it(tmp_path):
             "cannot be read as JSON|version",
         ),
         (GOOD.replace('"judge"', '"' + "x" * 10_000 + '"'), {}, "kind is 'xxx.{,40}; it should be 'judge'"),
+        (GOOD.replace('"1"', '"2"'), {}, "version is '2'; it should be '1'"),
         (GOOD, {"dtype": "F8_E4M3", "item": 1}, r"'a' is F8_E4M3 \[1\]; it should be F32 \[1\]"),
         (GOOD, {"dtype": "BF16", "item": 2}, r"'a' is BF16 \[1\]"),
         (GOOD, {"shape": []}, r"'a' is F32 \[\]; it should be F32 \[1\]"),
     ],
-    ids=["deep", "long number", "long kind", "eight bits", "sixteen bits", "scalar"],
+    ids=["deep", "long number", "long kind", "other version", "eight bits", "sixteen bits", "scalar"],
 )
 def test_a_hostile_header_is_refused(tmp_path, metadata, layout, told):
     path = write_by_hand(tmp_path / "hostile.safetensors", metadata, **layout)
@@ -194,10 +197,35 @@ def test_a_card_that_could_not_be_read_again_is_not_written(path):
 def test_a_pipe_is_refused_instead_of_waited_for(tmp_path):
     path = tmp_path / "pipe.safetensors"
     os.mkfifo(path)
-    with pytest.raises(CheckpointError, match="no regular file"):
-        load_checkpoint(path, "judge", SHAPES)
-    with pytest.raises(CheckpointError, match="no regular file"):
-        digest_of(tmp_path)
+    writer = os.open(path, os.O_RDWR)  # without one, opening the pipe by mistake would block for good
+    try:
+        with pytest.raises(CheckpointError, match="no regular file"):
+            load_checkpoint(path, "judge", SHAPES)
+        with pytest.raises(CheckpointError, match="no regular file"):
+            digest_of(tmp_path)
+    finally:
+        os.close(writer)
+
+
+@pytest.mark.parametrize(
+    "load", [lambda path: load_checkpoint(path, "judge", SHAPES), lambda path: digest_of(path.parent)]
+)
+def test_a_folder_named_like_a_checkpoint_is_none(tmp_path, load):
+    path = tmp_path / "folder.safetensors"
+    path.mkdir()
+    with pytest.raises(CheckpointError, match=r"folder\.safetensors: cannot be read: it is no regular file"):
+        load(path)
+
+
+def test_a_write_that_is_cut_short_leaves_the_old_file(path, monkeypatch):
+    def fail(*_):
+        raise OSError("no space left")
+
+    before = path.read_bytes()
+    monkeypatch.setattr(os, "replace", fail)
+    with pytest.raises(OSError, match="no space left"):
+        save_checkpoint(path, "judge", tensors(), {"another": "card"})
+    assert path.read_bytes() == before
 
 
 def test_the_digest_is_of_names_and_contents_and_takes_little_memory(path):
