@@ -24,6 +24,7 @@ from adhoc.worlds.world import World
 Artifact = Callable[[EpisodeKey, EpisodeResult, Record], None]
 """Draws or writes something of a fresh episode; called before its record is stored."""
 
+
 class Progress(Protocol):
     """What is told while episodes are run."""
 
