@@ -12,19 +12,19 @@ demo: .venv/installed
 	$(BIN)/adhoc report demo --markdown demo/table.md
 
 # The paper's tables and its ablation, complete, on 30 tasks with the offline model: about half an hour.
-SWEEP := benchmark=sample join_step=0,50,100 workers=2 pictures=false transcript=false out=tables
-ABLATIONS := no_subtask_planner,irot_no_evaluation_no_reflection,irot_no_evaluation,irot_no_reflection
 tables: .venv/installed
-	$(BIN)/adhoc run -m $(SWEEP) team=heuristic,learned,llm policy=none,random,heuristic,plastic,naive,gpl,cot,irot
-	$(BIN)/adhoc run -m $(SWEEP) team=llm policy=$(ABLATIONS)
-	$(BIN)/adhoc report tables --intervals --markdown tables/tables.md
+	$(BIN)/adhoc run experiment=all_tables benchmark=sample workers=2 out=tables
+	$(BIN)/adhoc run experiment=ablation benchmark=sample workers=2 out=tables
+	$(BIN)/adhoc report tables --intervals --markdown tables/tables.md --html tables/tables.html --figures tables/figures
 
 # How the order of the planners depends on how often the offline model errs: about a quarter of an hour.
 sensitivity: .venv/installed
 	$(BIN)/adhoc sensitivity --out sensitivity workers=2
 
+# In so many processes at a time.
+JOBS ?= 2
 test: .venv/installed-dev
-	$(BIN)/pytest
+	$(BIN)/pytest -n $(JOBS)
 
 test-slow: .venv/installed-dev
 	$(BIN)/pytest -m slow
@@ -49,9 +49,14 @@ bench: .venv/installed-dev
 	$(BIN)/python benchmarks/speed.py $(HOUSE)
 	$(BIN)/python benchmarks/episode.py $(HOUSE)
 	$(BIN)/python benchmarks/decisions.py
+	$(BIN)/python benchmarks/inspector.py
+	$(BIN)/python benchmarks/interval_coverage.py
+	$(BIN)/python benchmarks/other_intervals.py
 	$(BIN)/python benchmarks/dataset.py
 	$(BIN)/python benchmarks/ledger.py
 	$(BIN)/python benchmarks/workers.py
+	$(BIN)/python benchmarks/runs.py
+	$(BIN)/python benchmarks/report.py
 
 .venv/bin/pip:
 	$(PYTHON) -m venv .venv

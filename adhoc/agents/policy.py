@@ -5,11 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from adhoc.core.messages import Message
 from adhoc.core.values import Action, Capability, Observation
 from adhoc.tasks.task import Task
+
+if TYPE_CHECKING:
+    from adhoc.perception.semantic_map import SemanticMap
 
 Ask = Callable[[Message], Sequence[Message]]
 """Broadcasts a message and returns the teammates' answers within the step."""
@@ -37,6 +40,14 @@ class Policy(ABC):
         """A hash of what decides its behaviour besides its configuration, such as trained weights; empty if
         nothing does. Episodes of another fingerprint are not taken for its own."""
         return ""
+
+    @property
+    def map(self) -> SemanticMap | None:
+        """What it knows of space, for inspectors: looked at, never changed, and an input to nobody.
+
+        None if it keeps no map, or before `reset`.
+        """
+        return None
 
     @abstractmethod
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:

@@ -15,6 +15,7 @@ from adhoc.core.calls import Call
 from adhoc.core.messages import Message
 from adhoc.core.values import Action, Capability, Observation
 from adhoc.perception.perception import PerceptionSettings
+from adhoc.perception.semantic_map import SemanticMap
 from adhoc.tasks.task import Task
 
 
@@ -28,6 +29,12 @@ class TalkingPolicy(Policy):
 
     def __init__(self, perception: PerceptionSettings | None, skills: SkillTable | None) -> None:
         self._perception, self._skills = perception, skills
+
+    @property
+    def map(self) -> SemanticMap | None:
+        """See `Policy`."""
+        memory: Memory | None = getattr(self, "_memory", None)
+        return None if memory is None else memory.perception.map
 
     def _wake(self, me: str, capability: Capability, task: Task, ask: Ask) -> None:
         """Begin an episode with an empty memory."""

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from adhoc.evaluation.contender import EpisodeKey
+from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.transcript import write_transcript
-from adhoc.experiments.run import Artifact
+from adhoc.experiments.comparison import Artifact
 
 
 def artifacts_for(folder: Path, pictures: bool, transcript: bool) -> list[Artifact]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -47,6 +47,8 @@ STAGES: Mapping[str, type] = {
 }
 """What the stages of the paper must be; stages of other names may be anything."""
 TEAM = "team"
+FINGERPRINT = "fingerprint of "
+"""Begins the names of settings that tell what a policy's data are."""
 SESSIONS = "sessions"
 """The folder in the run folder for what people typed who played a robot."""
 
@@ -59,19 +61,25 @@ class Components:
 
     Args:
         config: The composed configuration.
-        provider: What answers the questions of all episodes, if it is not to be built here (see
-            `cli.model_chain.provider_model`): a worker's way to the one that its parent owns.
+        provider: What answers the questions of all episodes, or builds that, if it is not to be built here
+            (see `cli.model_chain.provider_model`): a worker's way to the one that its parent owns.
+        world: The world of all episodes, if it is shared with others.
     """
 
-    def __init__(self, config: DictConfig, provider: LanguageModel | None = None) -> None:
-        self._config, self._given_provider = config, provider
+    def __init__(
+        self,
+        config: DictConfig,
+        provider: LanguageModel | Callable[[], LanguageModel] | None = None,
+        world: World | None = None,
+    ) -> None:
+        self._config, self._given_provider, self._given_world = config, provider, world
         self._asked_for_model = self._task_asked_for_model = False
         self._fingerprints: dict[str, str] = {}
 
     @cached_property
     def world(self) -> World:
         """The world of all episodes."""
-        world: World = self._component("world", World)
+        world: World = self._given_world or self._component("world", World)
         return world
 
     @cached_property
@@ -94,7 +102,7 @@ class Components:
             imperfections.check_seats(most)
         return Conditions(
             task,
-            self._contender(TEAM),
+            self._contender(TEAM, self._plain(TEAM)),
             self._config.max_steps,
             failed_share=self._failed_share,
             settings=settings,
@@ -106,10 +114,26 @@ class Components:
     @cached_property
     def newcomer(self) -> Contender | None:
         """The ad hoc robot; None for `policy=none`."""
-        return None if self._plain("policy").get("name") == NO_AD_HOC else self._contender("policy")
+        return self.newcomer_of(self._config)
 
-    def _contender(self, group: str) -> Contender:
-        config = numbered_seats(self._plain(group), group)
+    def newcomer_of(self, config: DictConfig) -> Contender | None:
+        """The ad hoc robot of a configuration that differs from this one in policy and joining step alone."""
+        plain = _plain(config, "policy")
+        return None if plain.get("name") == NO_AD_HOC else self._contender("policy", plain)
+
+    def fingerprints(self, newcomer: Contender | None) -> dict[str, str]:
+        """What the benchmark, the team and a newcomer say of their data, such as trained weights."""
+        contenders = [self.conditions.team, *([] if newcomer is None else [newcomer])]
+        told = [(name, value) for one in contenders for name, value in one.settings.items()]
+        known = {name: str(value) for name, value in told if name.startswith(FINGERPRINT)}
+        return {"benchmark": self._benchmark_fingerprint, **known}
+
+    @cached_property
+    def _benchmark_fingerprint(self) -> str:
+        return self.benchmark.fingerprint
+
+    def _contender(self, group: str, plain: Mapping[str, Any]) -> Contender:
+        config = numbered_seats(plain, group)
         _check_fields(config, ("name", "label", AGENT), group)
         most = self._largest_team if config.get(SEATS) else None
         if most is not None:
@@ -150,7 +174,7 @@ class Components:
                 offers[name] = _stage_offer(stage, f"{place}.{name}", offers, STAGES.get(name))
         policy: Policy = build(config[AGENT], f"{place}.{AGENT}", offers, Policy)
         if policy.fingerprint:
-            self._fingerprints[f"fingerprint of {place}"] = policy.fingerprint
+            self._fingerprints[f"{FINGERPRINT}{place}"] = policy.fingerprint
         return speaking(policy, config, place)
 
     @cached_property
@@ -175,7 +199,10 @@ class Components:
     @cached_property
     def provider(self) -> LanguageModel:
         """What answers the questions of all episodes."""
-        return self._given_provider or provider_model(self._config, self._plain("llm"))
+        given = self._given_provider
+        if isinstance(given, LanguageModel):
+            return given
+        return provider_model(self._config, self._plain("llm")) if given is None else given()
 
     def _offer_model_to_task(self) -> LanguageModel:
         self._task_asked_for_model = True
@@ -196,14 +223,18 @@ class Components:
         return build(settings, group, offers, kind)
 
     def _plain(self, group: str) -> dict[str, Any]:
-        """One group as plain values."""
-        try:
-            plain = OmegaConf.to_container(self._config[group], resolve=True, throw_on_missing=True)
-        except MissingMandatoryValue as error:
-            raise ConfigurationError(f"{error.full_key}=...: must be given") from error
-        if not isinstance(plain, dict):
-            raise ConfigurationError(f"{group}={plain!r}: is no configuration group")
-        return {str(name): value for name, value in plain.items()}
+        return _plain(self._config, group)
+
+
+def _plain(config: DictConfig, group: str) -> dict[str, Any]:
+    """One group as plain values."""
+    try:
+        plain = OmegaConf.to_container(config[group], resolve=True, throw_on_missing=True)
+    except MissingMandatoryValue as error:
+        raise ConfigurationError(f"{error.full_key}=...: must be given") from error
+    if not isinstance(plain, dict):
+        raise ConfigurationError(f"{group}={plain!r}: is no configuration group")
+    return {str(name): value for name, value in plain.items()}
 
 
 def _check_fields(config: Mapping[str, Any], needed: Sequence[str], place: str) -> None:

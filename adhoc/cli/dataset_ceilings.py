@@ -16,7 +16,7 @@ from adhoc.dataset.files.dataset_folder import DatasetSplit, found_folder, split
 from adhoc.dataset.floors import floors, floors_markdown
 from adhoc.dataset.making.ceiling_making import make_ceilings
 from adhoc.dataset.oracle.summary import summarise, to_markdown, to_table
-from adhoc.reporting.report import read_folders
+from adhoc.reporting.folders import read_folders
 
 EPILOG = """\
 With --make the oracle tries every task, in the simulated world, first with the team alone and then with the

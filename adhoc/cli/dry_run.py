@@ -17,9 +17,10 @@ from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError, MissingDependency
 from adhoc.core.resources import data_dir
 from adhoc.evaluation.records import Record, RecordFile
+from adhoc.experiments.comparison import Comparison, Entrant
+from adhoc.experiments.console_progress import ConsoleProgress
 from adhoc.experiments.estimate import Spread, spread_evenly, spread_of
 from adhoc.experiments.folder import RunFolder
-from adhoc.experiments.progress import ConsoleProgress
 from adhoc.experiments.run import run_comparison
 from adhoc.llm.model import LMRequest, LMResponse, Wrapper
 from adhoc.llm.prices import Price
@@ -53,7 +54,8 @@ def dry_run(config: DictConfig) -> None:
         scenarios = components.benchmark.scenarios(world, config.seed, config.limit)
         chosen = [scenarios[position] for position in spread_evenly(len(scenarios), SCENARIOS)]
         with TemporaryDirectory(prefix="adhoc-dry-run-") as folder, ConsoleProgress(console) as progress:
-            run_comparison(world, chosen, conditions, newcomer, config.join_step, RunFolder(folder), progress)
+            entrants = () if newcomer is None else (Entrant(newcomer, config.join_step),)
+            run_comparison(Comparison(world, chosen, conditions, entrants), RunFolder(folder), progress)
             records = RecordFile(folder).read()
     finally:
         world.close()

@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TextIO
 
 from adhoc import __version__
+from adhoc.cli.completion import FLAGS, complete
 from adhoc.core.errors import AdhocError, BudgetReached
 
 COMMANDS = {
@@ -23,6 +24,16 @@ COMMANDS = {
         "how the order of policies depends on the offline reasoner's error rates",
     ),
     "report": ("adhoc.cli.report", "print the paper's table from the records of runs"),
+    "inspect": (
+        "adhoc.cli.inspect",
+        "look into one episode: a page with every step and every decision, pictures, a film",
+    ),
+    "verify": (
+        "adhoc.cli.verify",
+        "check run folders: checksums, completeness, and that every number follows from the records",
+    ),
+    "export": ("adhoc.cli.export", "write the records of runs as CSV or Parquet"),
+    "merge": ("adhoc.cli.merge", "put the shards of a run together"),
     "house": ("adhoc.cli.house", "describe a ProcTHOR house file, and draw it"),
     "dataset": ("adhoc.cli.dataset", "make, check and show datasets of houses and tasks"),
     "train": ("adhoc.cli.train", "train the learned team and other learned policies from nothing"),
@@ -41,10 +52,13 @@ OUT_OF_BUDGET = 3
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `adhoc` with these arguments (of the process by default); returns the exit code.
 
-    0 is success, 2 an error of the user's input (one line on stderr), 3 a run that stopped at a cap of its
-    budget (the same), 130 an interruption.
+    0 is success, 1 a run of which some episodes failed, 2 an error of the user's input (one line on stderr),
+    3 a run that stopped at a cap of its budget (the same), 130 an interruption.
     """
-    command, rest = _parse(sys.argv[1:] if arguments is None else list(arguments))
+    given = sys.argv[1:] if arguments is None else list(arguments)
+    if given[:1] and given[0] in FLAGS:
+        return complete(given, COMMANDS)
+    command, rest = _parse(given)
     run: Callable[[Sequence[str]], int] = import_module(COMMANDS[command][0]).main
     with warnings.catch_warnings():
         warnings.showwarning = _show_warning

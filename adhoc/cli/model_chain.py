@@ -139,6 +139,11 @@ def check_values(config: DictConfig) -> None:
     _retrying(config, nobody)
 
 
+def is_offline(llm: Mapping[str, Any]) -> bool:
+    """Whether the group `llm` names the offline reasoner, which costs nothing and answers the same again."""
+    return llm.get(TARGET) == f"{OfflineReasoner.__module__}.{OfflineReasoner.__qualname__}"
+
+
 def ledger_folder(config: DictConfig) -> Path:
     """Where calls are recorded, or replayed from. Raises ConfigurationError if it has no name, or is the run
     folder, whose records are no calls."""

@@ -1,31 +1,113 @@
-"""`adhoc report DIR...`: the paper's table from records."""
+"""`adhoc report DIR...`: the paper's tables and figures from records, and the paper's own numbers."""
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Sequence
+import gc
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
+from adhoc.cli.report_parts import Results, paper_document
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError
-from adhoc.evaluation.common_sense import agreement_markdown, agreement_table
-from adhoc.evaluation.records import Record
-from adhoc.reporting.cost_table import cost_markdown, cost_table
-from adhoc.reporting.ordering import ordering_markdown, ordering_tables
-from adhoc.reporting.prediction_table import prediction_markdown, prediction_table
-from adhoc.reporting.report import make_report, read_folders, to_markdown, to_table
+from adhoc.reporting.comparisons import Scope
+from adhoc.reporting.rendering.html import html_document
+from adhoc.reporting.rendering.latex import latex_document
+from adhoc.reporting.rendering.markdown import markdown_document
+from adhoc.reporting.rendering.terminal import terminal_table
+from adhoc.reporting.table import Document
+
+EPILOG = """\
+  adhoc report out/all
+  adhoc report out/all --intervals --latex tables.tex --figures figures
+  adhoc report out/all --paper --html report.html
+  adhoc report --paper
+
+docs/report.md explains every table and figure.
+"""
+FORMATS: dict[str, tuple[str, Callable[[Document], str]]] = {
+    "markdown": ("Markdown", markdown_document),
+    "latex": ("LaTeX (booktabs)", latex_document),
+    "html": ("one HTML page", html_document),
+}
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Print the table, and write it as Markdown if asked. Raises RecordError for unreadable folders."""
+    """Print the tables, and write the files that are asked for.
+
+    Raises RecordError for records that cannot be read or do not belong together, ConfigurationError for
+    options that do not fit.
+    """
+    options = _parse(arguments)
+    try:
+        _report(options)
+    finally:
+        gc.unfreeze()
+    return 0
+
+
+def _report(options: argparse.Namespace) -> None:
+    if options.folders:
+        results = Results(options)
+        _print(results.document(for_file=False))
+        document = results.document(for_file=True)
+    else:
+        document = paper_document()
+        _print(document)
+    for name, (_, write) in FORMATS.items():
+        path: Path | None = getattr(options, name)
+        if path is not None:
+            path.write_text(write(document), encoding="utf-8")
+
+
+def _print(document: Document) -> None:
+    console = table_console()
+    console.print(document.title, style="bold")
+    console.print()
+    for table in document.tables:
+        console.print(terminal_table(table))
+        console.print()
+    for warning in document.warnings:
+        console.print(warning, style="yellow", markup=False, highlight=False)
+    for note in document.notes:
+        console.print(note, style="dim")
+
+
+def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="adhoc report",
-        description="The paper's table (%Suc, %PS, #TS, #AS, %SE) from the records of one or more runs.",
+        description="The paper's tables (%Suc, %PS, #TS, #AS, %SE) and figures from the records of runs.",
+        epilog=EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    parser.add_argument("folders", nargs="+", metavar="DIR", help="a run folder, the out=... of `adhoc run`")
-    parser.add_argument("--markdown", metavar="FILE", type=Path, help="write the table as Markdown, too")
+    parser.add_argument("folders", nargs="*", metavar="DIR", help="a run folder, the out=... of `adhoc run`")
+    for name, (what, _) in FORMATS.items():
+        parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write everything as {what}, too")
+    parser.add_argument("--figures", metavar="DIR", type=Path, help="draw the figures there, as SVG and PNG")
     parser.add_argument(
-        "--intervals", action="store_true", help="the order of policies by success, with intervals, too"
+        "--paper",
+        action="store_true",
+        help="the paper's own numbers below ours; without DIR the paper's alone, and what contradicts what",
+    )
+    parser.add_argument(
+        "--intervals",
+        action="store_true",
+        help="an interval for each number, the order of policies by success, and who is told apart, too",
+    )
+    parser.add_argument(
+        "--power", action="store_true", help="how many tasks it takes to tell policies apart, too"
+    )
+    parser.add_argument(
+        "--difference",
+        metavar="POINTS",
+        type=float,
+        help="with --power: to tell a difference of so many points of %%Suc, not the observed one",
+    )
+    parser.add_argument(
+        "--family",
+        choices=[scope.value for scope in Scope],
+        default=Scope.TABLE.value,
+        help="comparisons that are corrected for together: of one team at one joining step (default), or all",
     )
     for option, what in (("--team", "team"), ("--policy", "ad hoc robot")):
         parser.add_argument(
@@ -35,58 +117,21 @@ def main(arguments: Sequence[str]) -> int:
             help=f"only this {what}, by its name in the configuration or its label; may be repeated",
         )
     options = parser.parse_args(list(arguments))
-    records = _chosen(read_folders(options.folders), options.team, options.policy)
-    report = make_report(records)
-    console = table_console()
-    for block in report.blocks:
-        console.print(to_table(report, block))
-    for table in ordering_tables(records) if options.intervals else ():
-        console.print(table)
-    agreement = agreement_table(records)
-    if agreement is not None:
-        console.print(agreement)
-    predictions = prediction_table(records)
-    if predictions is not None:
-        console.print(predictions)
-    costs = cost_table(records)
-    if costs is not None:
-        console.print(costs)
-    for warning in report.warnings:
-        console.print(warning, style="yellow", markup=False, highlight=False)
-    for note in report.notes:
-        console.print(note, style="dim")
-    if options.markdown is not None:
-        sections = (
-            to_markdown(report),
-            ordering_markdown(records) if options.intervals else "",
-            agreement_markdown(records),
-            prediction_markdown(records),
-            cost_markdown(records),
-        )
-        text = "\n".join(filter(None, sections))
-        options.markdown.write_text(text, encoding="utf-8")
-    return 0
+    _check(options)
+    return options
 
 
-def _chosen(
-    records: Sequence[Record], teams: Sequence[str] | None, policies: Sequence[str] | None
-) -> list[Record]:
-    """The records of these teams and policies, with the teams alone; all where nothing is named."""
-    for field, names in (("team", teams), ("policy", policies)):
-        known = sorted({str(record[field]) for record in records})
-        labels = {str(record[f"{field}_label"]) for record in records}
-        unknown = [name for name in names or () if name not in known and name not in labels]
-        if unknown:
-            raise ConfigurationError(
-                f"--{field} {unknown[0]!r}: not in these folders; there are {', '.join(map(repr, known))}"
-            )
-    return [
-        record
-        for record in records
-        if _is_one_of(record, "team", teams)
-        and (record["join_step"] is None or _is_one_of(record, "policy", policies))
-    ]
-
-
-def _is_one_of(record: Record, field: str, names: Sequence[str] | None) -> bool:
-    return names is None or record[field] in names or record[f"{field}_label"] in names
+def _check(options: argparse.Namespace) -> None:
+    """What can be known to fail before any record is read."""
+    if options.difference is not None and not options.power:
+        raise ConfigurationError(f"--difference {options.difference:g}: goes with --power")
+    if not options.folders and not options.paper:
+        raise ConfigurationError("DIR: name a run folder, or ask for the paper's numbers with --paper")
+    needs_records = ("figures", "intervals", "power", "team", "policy")
+    for name in () if options.folders else needs_records:
+        if getattr(options, name):
+            raise ConfigurationError(f"--{name}: needs a run folder; the paper gives its averages alone")
+    for name in FORMATS:
+        path = getattr(options, name)
+        if path is not None and not path.parent.is_dir():
+            raise ConfigurationError(f"--{name} {path}: there is no such folder")

@@ -15,5 +15,4 @@ def main(arguments: Sequence[str]) -> int:
         return 0
     from adhoc.cli.hydra_run import run_with_hydra
 
-    run_with_hydra(arguments)
-    return 0
+    return run_with_hydra(arguments)

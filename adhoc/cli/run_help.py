@@ -6,7 +6,7 @@ from pathlib import Path
 
 from adhoc.core.resources import data_dir
 
-GROUPS = ("policy", "team", "task", "world", "benchmark", "imperfections", "llm")
+GROUPS = ("policy", "team", "task", "world", "benchmark", "imperfections", "llm", "executor", "experiment")
 
 USAGE = """\
 usage: adhoc run [-m] [KEY=VALUE ...]
@@ -16,6 +16,7 @@ once. The same command again goes on where it stopped.
 
   adhoc run policy=irot join_step=50 out=results
   adhoc run -m policy=none,heuristic,irot join_step=0,50,100 out=results
+  adhoc run experiment=table1 benchmark=sample out=results
   adhoc report results
 
 values:
@@ -29,6 +30,8 @@ values:
   budget.run.usd=5 stop before more is spent in this run folder; also calls, tokens, and budget.episode
   ledger.mode=replay ledger.path=DIR  take every answer from the ledger of another run
   workers=1        processes that run episodes; they share one model, one ledger and one limit on calls
+  shard=1/1        i/n runs the i-th of n parts in a folder of its own; adhoc merge puts them together
+  fail_on_error=0.1  stop when more episodes failed: a share below 1, a number of them, or null for never
   pictures=true    draw every episode from above
   transcript=true  write one decision of every episode as a page to read
 

@@ -103,8 +103,14 @@ class RunConfig:
     ledger: LedgerConfig = field(default_factory=LedgerConfig)
     retry: RetryConfig = field(default_factory=RetryConfig)
     rate: RateConfig = field(default_factory=RateConfig)
+    executor: Any = MISSING
+    """Where episodes are run: in this process, in several, or on a cluster."""
     workers: int = 1
     """Processes that run episodes."""
+    shard: str = "1/1"
+    """i/n runs the i-th of n parts, into a folder of its own in `out`; `adhoc merge` puts them together."""
+    fail_on_error: Optional[float] = 0.1  # noqa: UP045
+    """The run stops when more episodes failed: a share below 1, a number of them, or null for never."""
     dry_run: bool = False
     """Estimate calls, tokens and cost from a few episodes with the offline reasoner; record nothing."""
     pictures: bool = True

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from adhoc.cli.hydra_run import run_with_hydra
 from adhoc.core.errors import ConfigurationError
-from adhoc.reporting.report import read_folders
+from adhoc.reporting.folders import read_folders
 from adhoc.reporting.sensitivity import sensitivity, sensitivity_markdown, settings
 from adhoc.reporting.sensitivity_drawing import draw_sensitivity
 

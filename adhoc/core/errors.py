@@ -50,6 +50,10 @@ class EpisodeError(AdhocError):
     asked a question outside its turn or said something that is no message."""
 
 
+class EpisodesFailed(AdhocError):
+    """More episodes of a run failed than it bears; what went wrong in each is in its `failures.jsonl`."""
+
+
 class WorkerError(AdhocError):
     """A worker process of a run ended by itself, or was killed again and again in one episode."""
 

@@ -8,10 +8,11 @@ from pathlib import Path
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import derive_seed
-from adhoc.dataset.files.dataset_folder import SPLITS, DatasetSplit, dataset_folder
+from adhoc.dataset.files.checked_lines import read_compressed
+from adhoc.dataset.files.dataset_folder import SPLITS, DatasetSplit, SplitFiles, dataset_folder
 from adhoc.dataset.making.house_tasks import PAPER_GRID
 from adhoc.dataset.subset import SUBSETS
-from adhoc.evaluation.benchmark import Benchmark
+from adhoc.evaluation.benchmark import Benchmark, files_fingerprint
 from adhoc.evaluation.lazy_scenarios import LazyScenarios
 from adhoc.evaluation.scenario import Scenario
 from adhoc.houses.house import House
@@ -79,6 +80,12 @@ class TaskFileBenchmark(Benchmark):
     def largest_team(self, limit: int | None = None) -> int | None:
         """See `Benchmark`; not known of a dataset of one's own."""
         return max(PAPER_GRID.teammates) if self._folder is None else None
+
+    @property
+    def fingerprint(self) -> str:
+        """See `Benchmark`: of the contents of the split's tasks and houses. Raises DatasetError."""
+        files = SplitFiles(dataset_folder(self._dataset, self._folder), self._split)
+        return files_fingerprint([(it.name, read_compressed(it)) for it in (files.tasks, files.houses)])
 
 
 def for_run(scenario: Scenario, run_seed: int) -> Scenario:

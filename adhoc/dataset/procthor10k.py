@@ -20,7 +20,7 @@ from adhoc.dataset.files.dataset_folder import SPLITS
 from adhoc.dataset.generator import ROOM_COUNTS
 from adhoc.dataset.house_choice import Candidate, check_enough, choose
 from adhoc.dataset.making.house_tasks import PAPER_GRID, draw_tasks, task_id
-from adhoc.evaluation.benchmark import Benchmark
+from adhoc.evaluation.benchmark import Benchmark, files_fingerprint
 from adhoc.evaluation.lazy_scenarios import LazyScenarios
 from adhoc.evaluation.scenario import Scenario
 from adhoc.houses.house import House
@@ -104,6 +104,14 @@ class ProcThor10kBenchmark(Benchmark):
     def largest_team(self, limit: int | None = None) -> int | None:
         """See `Benchmark`."""
         return max(PAPER_GRID.teammates)
+
+    @property
+    def fingerprint(self) -> str:
+        """See `Benchmark`: of the file; empty for houses of `prior`, which only the `scenario_hash` of each
+        record tells."""
+        if self._path is None:
+            return ""
+        return files_fingerprint([(it.name, it.text.encode()) for it in documents(Path(self._path))])
 
     @property
     def _prefix(self) -> str:

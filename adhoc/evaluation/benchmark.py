@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import hashlib
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,8 +15,9 @@ from adhoc.evaluation.ranges import PAPER_RANGES, Ranges
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Scenario
 from adhoc.houses.house import House
+from adhoc.houses.house_files import documents
 from adhoc.houses.procthor import read_house
-from adhoc.houses.samples import sample_house, sample_names
+from adhoc.houses.samples import sample_house, sample_names, sample_path
 from adhoc.worlds.world import World
 
 
@@ -37,6 +39,13 @@ class Benchmark(ABC):
         """How many teammates there may be at the most in the first `limit` scenarios, without making them;
         None if that is not known."""
         return None
+
+    @property
+    def fingerprint(self) -> str:
+        """A hash of the files that its houses and tasks come from, equal on every machine; empty if there are
+        none, or they cannot be known without loading all. Raises as `scenarios` for files that cannot be
+        read."""
+        return ""
 
 
 @dataclass(frozen=True)
@@ -67,6 +76,12 @@ class SampleBenchmark(Benchmark):
     def largest_team(self, limit: int | None = None) -> int | None:
         """See `Benchmark`."""
         return max((_teammates(draw.teammates) for draw in self._draws[:limit]), default=None)
+
+    @property
+    def fingerprint(self) -> str:
+        """See `Benchmark`."""
+        names = sorted({draw.house for draw in self._draws})
+        return files_fingerprint([(name, sample_path(name).read_bytes()) for name in names])
 
 
 class HouseBenchmark(Benchmark):
@@ -104,6 +119,19 @@ class HouseBenchmark(Benchmark):
     def largest_team(self, limit: int | None = None) -> int | None:
         """See `Benchmark`."""
         return _teammates(self._teammates)
+
+    @property
+    def fingerprint(self) -> str:
+        """See `Benchmark`. Every house of the file counts."""
+        return files_fingerprint([(it.name, it.text.encode()) for it in documents(self._path)])
+
+
+def files_fingerprint(files: Iterable[tuple[str, bytes]]) -> str:
+    """A hash of the names and contents of files, for `Benchmark.fingerprint`."""
+    digest = hashlib.sha256()
+    for name, content in files:
+        digest.update(f"{name}\0{hashlib.sha256(content).hexdigest()}\0".encode())
+    return digest.hexdigest()
 
 
 def _drawn_later(

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-
-from rich import box
-from rich.table import Table
 
 from adhoc.core.errors import AssetError
 from adhoc.evaluation.records import Record
@@ -15,12 +12,6 @@ from adhoc.tasks.common_sense import CommonSense
 
 FIELD = "common_sense"
 """The field of a record; None where no language model judged."""
-TITLE = "Common sense of a language model, against the placement table"
-COLUMNS = ("judge", "%agreed ↑", "only judge: misplaced", "only table: misplaced", "unanswered", "judged")
-EXPLANATION = (
-    "a judgement is one type of object in one receptacle and room type, counted once in each episode in "
-    "which a robot asked for it; the referee goes by the table"
-)
 
 
 @dataclass
@@ -77,39 +68,3 @@ def agreements(records: Sequence[Record]) -> dict[str, Agreement]:
             for name in asdict(total):
                 setattr(total, name, getattr(total, name) + int(found[name]))
     return by_judge
-
-
-def agreement_table(records: Sequence[Record]) -> Table | None:
-    """The agreement of every judge, for the terminal; None if no language model judged."""
-    rows = list(_rows(records))
-    if not rows:
-        return None
-    table = Table(
-        title=TITLE, title_justify="left", box=box.SIMPLE_HEAD, collapse_padding=True, pad_edge=False
-    )
-    for column in COLUMNS:
-        table.add_column(column, justify="left" if column == COLUMNS[0] else "right")
-    for row in rows:
-        table.add_row(*row)
-    table.caption, table.caption_justify = EXPLANATION, "left"
-    return table
-
-
-def agreement_markdown(records: Sequence[Record]) -> str:
-    """The same as Markdown; empty if no language model judged."""
-    rows = list(_rows(records))
-    if not rows:
-        return ""
-    lines = [f"## {TITLE}", "", _line(COLUMNS), "|---|" + "---:|" * (len(COLUMNS) - 1)]
-    return "\n".join([*lines, *map(_line, rows), "", f"- {EXPLANATION}"]) + "\n"
-
-
-def _rows(records: Sequence[Record]) -> Iterator[tuple[str, ...]]:
-    for judge, counts in sorted(agreements(records).items()):
-        accuracy = "-" if counts.accuracy is None else f"{counts.accuracy:.1f}"
-        numbers = (counts.false_misplaced, counts.false_in_place, counts.unanswered, counts.asked)
-        yield (judge, accuracy, *map(str, numbers))
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"

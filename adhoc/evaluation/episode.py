@@ -15,6 +15,7 @@ from adhoc.evaluation.failing import Failing
 from adhoc.evaluation.history import History, check_shared_past
 from adhoc.evaluation.imperfections import PERFECT, Imperfections
 from adhoc.evaluation.joining import joining_pose
+from adhoc.evaluation.observer import BLIND, EpisodeObserver
 from adhoc.evaluation.referee import PlacementReferee, RefereeMaker
 from adhoc.evaluation.scenario import Member, Scenario, prepare
 from adhoc.evaluation.trace import Trace
@@ -35,6 +36,7 @@ def run_episode(
     referee: RefereeMaker = PlacementReferee,
     alone: Sequence[str] | None = None,
     imperfections: Imperfections = PERFECT,
+    observer: EpisodeObserver = BLIND,
 ) -> EpisodeResult:
     """Run one episode from set-up to its end; deterministic if the policies are.
 
@@ -55,6 +57,7 @@ def run_episode(
         alone: The `history` of the team alone in the same scenario. If given, the past up to the joining
             step is checked against it.
         imperfections: What is wrong with the team and the radio.
+        observer: Is shown every step, and changes nothing.
 
     Raises:
         ConfigurationError: The number of policies or the joining step does not fit.
@@ -68,7 +71,7 @@ def run_episode(
     if newcomer is not None and not 0 <= join_step < max_steps:
         raise ConfigurationError(f"join_step={join_step}: must be at least 0 and below max_steps={max_steps}")
     task.begin_episode()
-    episode = _Episode(world, scenario, task, referee, max_steps, imperfections)
+    episode = _Episode(world, scenario, task, referee, max_steps, imperfections, observer)
     episode.set_up(team)
     ending = episode.ending()
     while ending is None:
@@ -97,6 +100,7 @@ class _Episode:
         referee: RefereeMaker,
         max_steps: int,
         imperfections: Imperfections,
+        observer: EpisodeObserver,
     ) -> None:
         self.step = 0
         self.joined_at: Pose | None = None
@@ -109,10 +113,12 @@ class _Episode:
         self._make_referee = referee
         self._max_steps = max_steps
         self._imperfections = imperfections
+        self._observer = observer
         self._channel = Channel(imperfections.radio, scenario.seed)
         self._policies: dict[str, Policy] = {}
         self._batteries: dict[str, int] = {}
         self._observations: dict[str, Observation] = {}
+        self._turns: dict[str, Turn] = {}
         self._finished: set[str] = set()
         self._failing = Failing(imperfections, scenario, world)
 
@@ -153,9 +159,11 @@ class _Episode:
             with self._channel.turn_of(name):
                 self._policies[name].confer(self._observations[name], self._channel.inbox(name))
         actions: dict[str, Action] = {}
+        self._turns = {}
         for apart, group in groupby(able, key=lambda name: self._policies[name].acts_apart):
             names = list(group)
             actions.update(self._act_apart(names) if apart else self._act_in_turn(names))
+        self._observer.look(self.step, self._world, self._policies, self._observations, self._turns)
         self._observations = dict(self._world.step(actions))
         self.step += 1
         self._fail()
@@ -174,6 +182,7 @@ class _Episode:
         return Ending.MAX_STEPS if self.step >= self._max_steps else None
 
     def result(self, ending: Ending, join_step: int | None) -> EpisodeResult:
+        self._observer.look(self.step, self._world, self._policies, self._observations, {})
         self.trace.objects_after = dict(self._world.truth())
         self.trace.history = list(self.history.links)
         return EpisodeResult(
@@ -239,6 +248,7 @@ class _Episode:
 
     def _take(self, name: str, turn: Turn) -> Action:
         self._channel.send(name, turn.outbox)
+        self._turns[name] = turn
         self.trace.add_decision(self.step, name, turn.trace, of_team=name != self._scenario.newcomer.name)
         return turn.action
 

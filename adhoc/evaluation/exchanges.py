@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import deque
+from dataclasses import asdict
 from itertools import groupby
 from typing import Any
 
 from adhoc.core.errors import ReplyError
-from adhoc.llm.model import LanguageModel, LMRequest, LMResponse, Wrapper
+from adhoc.llm.model import LanguageModel, LMRequest, LMResponse, Usage, Wrapper
 
 MAX_EXCHANGES = 64
 
@@ -25,22 +26,31 @@ class TranscribingModel(Wrapper):
         try:
             response = self._inner.complete(request)
         except ReplyError as error:
-            self._note(request, f"(no usable reply: {error})")
+            paid = error.response if isinstance(error.response, LMResponse) else None
+            self._note(request, f"(no usable reply: {error})", paid)
             raise
-        self._note(request, response.text)
+        self._note(request, response.text, response)
         return response
 
     def take(self, agent: str) -> list[dict[str, Any]]:
-        """The robot's exchanges since the last call for it, as `{stage, prompt: [{role, content}], reply}`;
-        the latest 64 at most. Samples of one question, which are asked for together, are in their own order.
+        """The robot's exchanges since the last call for it, as `{stage, prompt: [{role, content}], reply,
+        model, prompt_tokens, completion_tokens, cost_usd}`; the latest 64 at most. Samples of one question,
+        which are asked for together, are in their own order.
         """
         taken = []
         for _, together in groupby(self._exchanges.pop(agent, ()), key=lambda entry: entry[1]["stage"]):
             taken += [exchange for _, exchange in sorted(together, key=lambda entry: entry[0])]
         return taken
 
-    def _note(self, request: LMRequest, reply: str) -> None:
+    def _note(self, request: LMRequest, reply: str, response: LMResponse | None) -> None:
         prompt = [{"role": message.role, "content": message.content} for message in request.messages]
-        exchange = {"stage": request.stage, "prompt": prompt, "reply": reply}
+        usage = Usage() if response is None else response.usage
+        exchange = {
+            "stage": request.stage,
+            "prompt": prompt,
+            "reply": reply,
+            "model": self.name if response is None else response.model,
+            **asdict(usage),
+        }
         of_robot = self._exchanges.setdefault(request.agent, deque(maxlen=MAX_EXCHANGES))
         of_robot.append((request.sample, exchange))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
 
@@ -76,16 +76,54 @@ def score(
 
     A newcomer that never joined has no share in #AS.
     """
-    steps = result.steps if result.success else result.max_steps
+    steps = temporal_steps(result.success, result.steps, result.max_steps)
     return EpisodeScore(
         success=result.success,
-        partial_success=len(result.replaced) / len(result.watched),
+        partial_success=partial_success(len(result.replaced), len(result.watched)),
         temporal_steps=steps,
-        action_steps=_action_steps(result, failed_share),
+        action_steps=action_steps(
+            result.success,
+            result.agent_steps,
+            len(result.scenario.team),
+            result.max_steps,
+            result.join_step if result.joined else None,
+            failed_share,
+        ),
         efficiency=None
         if reference_temporal_steps is None
         else efficiency(reference_temporal_steps, steps, result.success),
     )
+
+
+def partial_success(replaced: int, misplaced: int) -> float:
+    """The %PS term: the share of the misplaced objects that were re-placed."""
+    return replaced / misplaced
+
+
+def temporal_steps(success: bool, steps: int, max_steps: int) -> int:
+    """The #TS term: the steps that were run until success, `max_steps` if there was none."""
+    return steps if success else max_steps
+
+
+def action_steps(
+    success: bool,
+    agent_steps: Mapping[str, int],
+    teammates: int,
+    max_steps: int,
+    joined_at: int | None,
+    failed_share: FailedShare,
+) -> int:
+    """The #AS term: the battery steps of all robots until success; for a failure `max_steps` for each.
+
+    `joined_at` is the step at which the newcomer joined, None if it did not; `failed_share` says what a
+    failure counts for it.
+    """
+    if success:
+        return sum(agent_steps.values())
+    total = max_steps * teammates
+    if joined_at is not None:
+        total += max_steps - (joined_at if failed_share is FailedShare.FROM_JOINING else 0)
+    return total
 
 
 def efficiency(team_steps: int, ad_hoc_steps: int, success: bool) -> float:
@@ -97,15 +135,32 @@ def efficiency(team_steps: int, ad_hoc_steps: int, success: bool) -> float:
 
 def average(scores: Sequence[EpisodeScore]) -> Scores:
     """The means over episodes; %SE over those that have a term. Raises ConfigurationError if empty."""
-    if not scores:
+    return average_columns(
+        [one.success for one in scores],
+        [one.partial_success for one in scores],
+        [one.temporal_steps for one in scores],
+        [one.action_steps for one in scores],
+        [one.efficiency for one in scores],
+    )
+
+
+def average_columns(
+    success: Sequence[bool],
+    partial_success: Sequence[float],
+    temporal_steps: Sequence[int],
+    action_steps: Sequence[int],
+    efficiency: Sequence[float | None],
+) -> Scores:
+    """The same of episodes' terms metric by metric, each in the order of the episodes."""
+    if not success:
         raise ConfigurationError("no episodes to average")
-    terms = [one.efficiency for one in scores if one.efficiency is not None]
+    terms = [term for term in efficiency if term is not None]
     return Scores(
-        episodes=len(scores),
-        success=100 * _mean([float(one.success) for one in scores]),
-        partial_success=100 * _mean([one.partial_success for one in scores]),
-        temporal_steps=_mean([one.temporal_steps for one in scores]),
-        action_steps=_mean([one.action_steps for one in scores]),
+        episodes=len(success),
+        success=100 * _mean(success),
+        partial_success=100 * _mean(partial_success),
+        temporal_steps=_mean(temporal_steps),
+        action_steps=_mean(action_steps),
         efficiency=100 * _mean(terms) if terms else None,
     )
 
@@ -118,16 +173,6 @@ def improvement(team: Scores, ad_hoc: Scores) -> Improvement:
         temporal_steps=_decline(team.temporal_steps, ad_hoc.temporal_steps),
         action_steps=_decline(team.action_steps, ad_hoc.action_steps),
     )
-
-
-def _action_steps(result: EpisodeResult, failed_share: FailedShare) -> int:
-    if result.success:
-        return sum(result.agent_steps.values())
-    total = result.max_steps * len(result.scenario.team)
-    if result.joined and result.join_step is not None:
-        late = result.join_step if failed_share is FailedShare.FROM_JOINING else 0
-        total += result.max_steps - late
-    return total
 
 
 def _rise(before: float, after: float) -> float | None:

@@ -12,15 +12,12 @@ from matplotlib.patheffects import withStroke
 
 from adhoc.core.geometry import planar_distance
 from adhoc.evaluation.episode_result import EpisodeResult
-from adhoc.evaluation.floor_drawing import MARGIN, draw_house
+from adhoc.evaluation.floor_drawing import draw_house
+from adhoc.evaluation.floor_shapes import MARGIN
+from adhoc.evaluation.palette import MISPLACED, NEWCOMER, OUTLINE, REPLACED, REPLACED_FACE, robot_colour
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.trace import Trace, TraceEvent
 
-TEAM_COLOURS = ("#e09f1f", "#2a78b5", "#8f5aa8", "#3c9d6b", "#b8694a", "#7a7f36", "#c4589a")
-NEWCOMER_COLOUR = "#ffffff"
-NEWCOMER_OUTLINE = "#14181f"
-MISPLACED = "#d1242f"
-REPLACED = "#1a7f37"
 SPREAD = 0.035
 """Metres between paths along the same cells, so that none hides another."""
 CROWDED = 1.2
@@ -83,7 +80,7 @@ def _draw_path(axes: Axes, result: EpisodeResult, name: str, position: int) -> N
         return
     xs, ys = zip(*places)
     colour = _colour(result, name)
-    outline = [withStroke(linewidth=4.4, foreground=NEWCOMER_OUTLINE)] if is_newcomer else []
+    outline = [withStroke(linewidth=4.4, foreground=OUTLINE)] if is_newcomer else []
     width, order = (2.4, 6.0) if is_newcomer else (1.7, 5.0)
     axes.plot(
         xs,
@@ -97,10 +94,10 @@ def _draw_path(axes: Axes, result: EpisodeResult, name: str, position: int) -> N
         zorder=order,
     )
     marker, size = ("*", 17) if is_newcomer else ("o", 8)
-    axes.plot(xs[0], ys[0], marker, color=colour, markersize=size, markeredgecolor=NEWCOMER_OUTLINE, zorder=8)
-    axes.plot(xs[-1], ys[-1], "s", color=colour, markersize=5.5, markeredgecolor=NEWCOMER_OUTLINE, zorder=8)
+    axes.plot(xs[0], ys[0], marker, color=colour, markersize=size, markeredgecolor=OUTLINE, zorder=8)
+    axes.plot(xs[-1], ys[-1], "s", color=colour, markersize=5.5, markeredgecolor=OUTLINE, zorder=8)
     if is_newcomer:
-        _label(axes, f"joins at step {result.join_step}", (xs[0], ys[0]), NEWCOMER_OUTLINE)
+        _label(axes, f"joins at step {result.join_step}", (xs[0], ys[0]), OUTLINE)
 
 
 def _draw_object(
@@ -136,7 +133,7 @@ def _draw_object(
         axes.plot(
             *end,
             "o",
-            markerfacecolor="#d7f2dd",
+            markerfacecolor=REPLACED_FACE,
             markeredgecolor=REPLACED,
             markersize=12,
             markeredgewidth=1.8,
@@ -198,17 +195,17 @@ def _draw_titles(figure: Figure, record: Record, height: float) -> None:
 def _legend(result: EpisodeResult) -> list[Line2D]:
     return [
         *(_path_handle(result, name) for name in result.trace.agents),
-        _mark_handle("o", "#cccccc", NEWCOMER_OUTLINE, "start"),
-        _mark_handle("s", "#cccccc", NEWCOMER_OUTLINE, "end"),
+        _mark_handle("o", "#cccccc", OUTLINE, "start"),
+        _mark_handle("s", "#cccccc", OUTLINE, "end"),
         _mark_handle("x", MISPLACED, MISPLACED, "misplaced object"),
-        _mark_handle("o", "#d7f2dd", REPLACED, "re-placed"),
+        _mark_handle("o", REPLACED_FACE, REPLACED, "re-placed"),
     ]
 
 
 def _path_handle(result: EpisodeResult, name: str) -> Line2D:
     handle = Line2D([], [], color=_colour(result, name), linewidth=2.4, label=_who(result, name))
     if name == result.scenario.newcomer.name:
-        handle.set_path_effects([withStroke(linewidth=4.4, foreground=NEWCOMER_OUTLINE)])
+        handle.set_path_effects([withStroke(linewidth=4.4, foreground=OUTLINE)])
     return handle
 
 
@@ -234,5 +231,5 @@ def _who(result: EpisodeResult, name: str) -> str:
 
 def _colour(result: EpisodeResult, name: str) -> str:
     if name == result.scenario.newcomer.name:
-        return NEWCOMER_COLOUR
-    return TEAM_COLOURS[result.trace.agents.index(name) % len(TEAM_COLOURS)]
+        return NEWCOMER
+    return robot_colour(result.trace.agents.index(name))

@@ -8,8 +8,10 @@ from typing import Any
 
 from adhoc import __version__
 from adhoc.evaluation.common_sense import judgement_counts
-from adhoc.evaluation.contender import EpisodeKey
+from adhoc.evaluation.contender import Contender
+from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.episode_result import EpisodeResult
+from adhoc.evaluation.first_help import first_help
 from adhoc.evaluation.llm_field import llm_field
 from adhoc.evaluation.metrics import score
 from adhoc.evaluation.records import Record
@@ -29,9 +31,9 @@ def make_record(
 
     `alone` is the record of the team alone in the same scenario, `stages` what the language models counted.
     """
-    scenario = key.scenario
+    scenario, kind = key.scenario, key.kind
     reference = None if alone is None else int(alone["temporal_steps"])
-    scored = score(result, reference, key.conditions.failed_share)
+    scored = score(result, reference, kind.conditions.failed_share)
     return {
         "episode_id": key.id,
         "task_id": scenario.id,
@@ -40,20 +42,22 @@ def make_record(
         "difficulty": scenario.difficulty.value,
         "teammates": len(scenario.team),
         "misplaced": len(result.watched),
-        "team": key.conditions.team_name,
-        "team_label": key.conditions.team_label,
-        "imperfections": key.conditions.imperfections.settings or None,
+        "team": kind.conditions.team_name,
+        "team_label": kind.conditions.team_label,
+        "imperfections": kind.conditions.imperfections.settings or None,
         "broke_down": dict(result.broke_down),
         "left": dict(result.left),
-        "policy": key.policy,
-        "policy_label": "No ad hoc" if key.newcomer is None else key.newcomer.label,
-        "join_step": key.join_step,
+        "policy": kind.policy,
+        "policy_label": newcomer_label(kind.newcomer),
+        "join_step": kind.join_step,
         "joined": result.joined,
         "joined_at": None if result.joined_at is None else [result.joined_at.x, result.joined_at.y],
         "joined_elsewhere": result.moved,
+        "newcomer": None if kind.newcomer is None else asdict(scenario.newcomer.capability),
+        "first_help": _first_help(result),
         "seed": scenario.seed,
-        "model": key.model,
-        "team_model": key.team_model,
+        "model": kind.model,
+        "team_model": kind.team_model,
         "max_steps": result.max_steps,
         "steps": result.steps,
         "ending": result.ending.value,
@@ -74,17 +78,29 @@ def make_record(
         "llm": llm_field(stages),
         "planning": asdict(result.trace.planning),
         "team_planning": asdict(result.trace.team_planning),
-        "predictions": result.trace.foresight.counts(key.newcomer is None, key.conditions.predicted_within),
+        "predictions": result.trace.foresight.counts(kind.newcomer is None, kind.conditions.predicted_within),
         "person": asdict(result.trace.people),
-        "common_sense": judgement_counts(key.conditions.task.common_sense),
+        "common_sense": judgement_counts(kind.conditions.task.common_sense),
         "history_hash": result.history_hash,
-        "history": pack_history(result.history) if key.newcomer is None else None,
+        "history": pack_history(result.history) if kind.newcomer is None else None,
         "scenario_hash": scenario.content_hash(),
         "config_hash": key.config_hash,
-        "failed_share": key.conditions.failed_share.value,
+        "failed_share": kind.conditions.failed_share.value,
         "library_version": __version__,
+        "run": kind.run,
         "wall_s": round(wall_s, 3),
     }
+
+
+def _first_help(result: EpisodeResult) -> int | None:
+    if not result.joined or result.join_step is None:
+        return None
+    return first_help(result.trace.events, result.scenario.newcomer.name, result.join_step)
+
+
+def newcomer_label(newcomer: Contender | None) -> str:
+    """The `policy_label` of an episode with that newcomer, or of the team alone."""
+    return "No ad hoc" if newcomer is None else newcomer.label
 
 
 def pack_history(links: Sequence[str]) -> str:

@@ -8,17 +8,20 @@ import warnings
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from itertools import islice
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
 from adhoc.core.errors import RecordError
+from adhoc.evaluation.record_lines import AT_ONCE, quick_records, without_collecting
 
 FILE_NAME = "episodes.jsonl"
 UNFINISHED_NAME = "unfinished.jsonl"
 """Records of episodes that a run's budget cut short, in the form of the others. They are no results."""
-UNCHECKED = ("wall_s", "llm.replayed")
-"""Fields that the checksum leaves out, so that equal runs have equal checksums: wall-clock times, and how
-many answers came from a ledger, of which resumed and replayed runs have more."""
+UNCHECKED = ("wall_s", "llm.replayed", "run")
+"""Fields that the checksum leaves out, so that equal episodes have equal checksums: wall-clock times, how
+many answers came from a ledger, of which resumed and replayed runs have more, and the id of the run."""
 
 Record = Mapping[str, Any]
 
@@ -71,17 +74,48 @@ class RecordFile:
         """
         if not self.path.exists():
             return []
-        lines = self.path.read_bytes().split(b"\n")
-        if lines.pop():
-            warnings.warn(
-                f"{self.path}, line {len(lines) + 1}: incomplete last record left out; its episode counts as "
-                "not run",
-                TornRecordWarning,
-                stacklevel=2,
-            )
-        records = [_decode(line, self.path, number) for number, line in enumerate(lines, start=1)]
+        records: list[Record] = []
+        with open(self.path, "rb") as file, without_collecting():
+            while lines := list(islice(file, AT_ONCE)):
+                torn = not lines[-1].endswith(b"\n")
+                records += self._decoded([line[:-1] for line in lines[: len(lines) - torn]], len(records))
+                if torn:
+                    self._warn_of_torn(len(records) + 1)
         self._check_unique(records)
         return records
+
+    def _decoded(self, lines: Sequence[bytes], before: int) -> Iterator[Record]:
+        """The records of lines without their ends, of which so many were before. Raises RecordError."""
+        quick = quick_records(lines, UNCHECKED)
+        for number, (line, record) in enumerate(zip(lines, quick), start=before + 1):
+            if record is not None and _has_seen_fields(record):
+                yield record
+            else:
+                yield _decode(line, self.path, number)
+
+    def _warn_of_torn(self, number: int) -> None:
+        warnings.warn(
+            f"{self.path}, line {number}: incomplete last record left out; its episode counts as not run",
+            TornRecordWarning,
+            stacklevel=3,
+        )
+
+    def scan(self) -> Iterator[tuple[int, Record | RecordError]]:
+        """Every line's number, from 1, with its record or what is wrong with it; none if there is no file.
+
+        An incomplete last line is wrong, too. Raises nothing for damage: it is for checking, not for use.
+        """
+        if not self.path.exists():
+            return
+        with open(self.path, "rb") as file:
+            for number, line in enumerate(file, start=1):
+                if not line.endswith(b"\n"):
+                    yield number, RecordError(f"{self.path}, line {number}: the last line is incomplete")
+                    continue
+                try:
+                    yield number, _decode(line[:-1], self.path, number)
+                except RecordError as error:
+                    yield number, error
 
     def append(self, record: Record) -> None:
         """Write one record behind the last complete one. Raises RecordError if a field is missing, or the
@@ -176,6 +210,20 @@ def _check_fields(record: Record, where: str) -> None:
         kinds = kind if isinstance(kind, tuple) else (kind,)
         if not isinstance(value, kinds) or (isinstance(value, bool) and bool not in kinds):
             raise RecordError(f"{where}: field {field!r} cannot be {value!r}")
+    _SEEN_FIELDS.add(tuple(map(type, _required_values(record))))
+
+
+def _has_seen_fields(record: Record) -> bool:
+    """Whether all fields are there and of types that were found right before."""
+    try:
+        return tuple(map(type, _required_values(record))) in _SEEN_FIELDS
+    except KeyError:
+        return False
+
+
+_required_values = itemgetter(*REQUIRED)
+_SEEN_FIELDS: set[tuple[type, ...]] = set()
+"""There are few combinations of types, and many records."""
 
 
 def _is_intact(record: Record, crc: object, line: bytes) -> bool:

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Protocol
 
-from adhoc.core.errors import RecordError
+from adhoc.core.errors import EpisodesFailed, RecordError
 from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile, writing
+from adhoc.evaluation.settings_files import differing, read_settings, settings_path
+from adhoc.experiments.failures import Failure, FailureFile, Tolerance
 
 
-class FolderKey(Protocol):
-    """What a run folder knows an episode by; see `contender.EpisodeKey`, which is one."""
+class NamedKey(Protocol):
+    """An episode by its name and configuration; see `plan.Planned`, which is one."""
 
     @property
     def id(self) -> str:
@@ -29,6 +31,10 @@ class FolderKey(Protocol):
     @property
     def config_hash(self) -> str:
         """A hash of `settings`."""
+
+
+class FolderKey(NamedKey, Protocol):
+    """What a run folder knows an episode by; see `episode_key.EpisodeKey`, which is one."""
 
     @property
     def scenario_id(self) -> str:
@@ -51,16 +57,27 @@ class EpisodeStore(Protocol):
     def add_unfinished(self, key: FolderKey, record: Record) -> None:
         """See `RunFolder`."""
 
+    def add_failure(self, failure: Failure) -> None:
+        """See `RunFolder`."""
+
 
 class RunFolder:
     """The finished episodes of one folder. Several policies, joining steps and scenarios may share it, and
     with them the episodes of the team alone; what else decides an episode must stay the same.
 
-    Raises RecordError if the records are damaged.
+    Args:
+        folder: Where it is; it need not exist.
+        tolerance: How many failures of episodes it bears in a run; none by default.
+
+    Raises:
+        RecordError: The records are damaged.
     """
 
-    def __init__(self, folder: str | Path) -> None:
+    def __init__(self, folder: str | Path, tolerance: Tolerance | None = None) -> None:
         self.path = Path(folder)
+        self._tolerance = tolerance or Tolerance()
+        self._expected = self._failed = 0
+        self._failures = FailureFile(folder)
         self._file = RecordFile(folder)
         self._records = {str(record["episode_id"]): record for record in self._file.read()}
         self._unfinished_file = RecordFile(folder, UNFINISHED_NAME)
@@ -69,17 +86,26 @@ class RunFolder:
             for record in self._unfinished_file.read()
             if record["episode_id"] not in self._records
         }
-        self._hashes = {_group(record): str(record["config_hash"]) for record in self._records.values()}
+        self._hashes = {group_of(record): str(record["config_hash"]) for record in self._records.values()}
 
     @property
     def records(self) -> list[Record]:
         """Those of all finished episodes, in the order in which they were finished."""
         return list(self._records.values())
 
-    def find(self, key: FolderKey) -> Record | None:
-        """The record of an episode that was run before, or None.
+    @property
+    def failures(self) -> tuple[Failure, ...]:
+        """The episodes whose latest attempt failed."""
+        return self._failures.failures
 
-        Raises RecordError if the folder belongs to another configuration or to other scenarios.
+    def expect(self, episodes: int) -> None:
+        """A run of so many episodes begins."""
+        self._expected, self._failed = episodes, 0
+
+    def recorded(self, key: NamedKey) -> Record | None:
+        """The record of an episode that was run before, or None; its scenario is not looked at.
+
+        Raises RecordError if the folder belongs to another configuration.
         """
         record = self._records.get(key.id)
         group_hash = self._hashes.get(key.group, key.config_hash)
@@ -90,6 +116,14 @@ class RunFolder:
                 f"policy={key.group[1]} ({self._differences(recorded, key)}); "
                 "use another folder (out=...) or the old configuration"
             )
+        return record
+
+    def find(self, key: FolderKey) -> Record | None:
+        """The record of an episode that was run before, or None.
+
+        Raises RecordError if the folder belongs to another configuration or to other scenarios.
+        """
+        record = self.recorded(key)
         if record is not None and record["scenario_hash"] != key.scenario_hash:
             raise RecordError(
                 f"{self._file.path}: episode {key.id!r} was run in another version of scenario "
@@ -105,6 +139,18 @@ class RunFolder:
         self._hashes[key.group] = key.config_hash
         if self._unfinished.pop(key.id, None) is not None:
             self._unfinished_file.replace(list(self._unfinished.values()))
+        self._failures.drop(key.id)
+
+    def add_failure(self, failure: Failure) -> None:
+        """Keep what went wrong in an episode. Raises EpisodesFailed if these are too many."""
+        self._failures.add(failure)
+        self._failed += 1
+        if self._tolerance.is_passed(self._failed, self._expected):
+            raise EpisodesFailed(
+                f"{self._failed} of {self._expected} episodes failed, the last of them "
+                f"{failure.episode_id!r}: {failure.error}: {failure.message} (see {self._failures.path}; "
+                f"fail_on_error={_plainly(self._tolerance.most)})"
+            )
 
     def add_unfinished(self, key: FolderKey, record: Record) -> None:
         """Keep what became of an episode that has to be run again, in place of what was kept of it before."""
@@ -119,27 +165,19 @@ class RunFolder:
                 path.write_text(json.dumps(key.settings, indent=2, sort_keys=True) + "\n", encoding="utf-8")
 
     def _settings_path(self, config_hash: str) -> Path:
-        return self.path / "settings" / f"{config_hash}.json"
+        return settings_path(self.path, config_hash)
 
-    def _differences(self, recorded: str, key: FolderKey) -> str:
-        path = self._settings_path(recorded)
-        try:
-            before = dict(_flat(json.loads(path.read_text(encoding="utf-8"))))
-        except (OSError, ValueError):
+    def _differences(self, recorded: str, key: NamedKey) -> str:
+        before = read_settings(self.path).get(recorded)
+        if before is None:
             return f"config_hash {recorded} there, {key.config_hash} here"
-        now = dict(_flat(key.settings))
-        names = sorted(name for name in {*before, *now} if before.get(name) != now.get(name))
-        changes = [f"{name}: {before.get(name)!r} there, {now.get(name)!r} here" for name in names]
-        return "; ".join(changes[:5])
+        return differing(before, key.settings)
 
 
-def _group(record: Record) -> tuple[str, str, str | None]:
+def _plainly(most: float | None) -> str:
+    return "null" if most is None else f"{most:g}"
+
+
+def group_of(record: Record) -> tuple[str, str, str | None]:
+    """See `NamedKey.group`."""
     return (record["team"], record["policy"], record["model"])
-
-
-def _flat(settings: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
-    for name, value in settings.items():
-        if isinstance(value, Mapping):
-            yield from _flat(value, f"{prefix}{name}.")
-        else:
-            yield f"{prefix}{name}", value

@@ -26,6 +26,11 @@ def sample_house(name: str) -> House:
     `corridor` is after the paper's physical set-up, two rooms joined by a corridor; `one_room`, `four_rooms`
     and `eight_rooms` are of ProcTHOR's scale.
     """
+    return read_house(sample_path(name))
+
+
+def sample_path(name: str) -> Path:
+    """The file of a sample house. Raises HouseError if there is none of that name."""
     if name not in sample_names():
         raise HouseError(f"no sample house {name!r}; there are {', '.join(sample_names())}")
-    return read_house(FOLDER / f"{name}.json")
+    return FOLDER / f"{name}.json"

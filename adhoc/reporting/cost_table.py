@@ -6,12 +6,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rich import box
-from rich.table import Table
-
 from adhoc.evaluation.records import Record
 from adhoc.llm.offline.reasoner import OFFLINE_NAME
 from adhoc.llm.team_model import TEAM_PREFIX
+from adhoc.reporting.table import Table, plain_table
 
 COLUMNS = ("episodes of", "stage", "calls", "tokens in", "tokens out", "USD", "USD an episode")
 TEAM_STAGE = "team"
@@ -62,6 +60,11 @@ def use_of(record: Record) -> Use:
     return _use(record["llm"])
 
 
+def total_use(records: Sequence[Record]) -> Use:
+    """All that several episodes asked, in sum."""
+    return Use(*(sum(record["llm"].get(name, 0) for record in records) for name in Use.__dataclass_fields__))
+
+
 def uses_by_stage(record: Record) -> dict[str, Use]:
     """What every stage of an episode asked; the stages of teammates as `TEAM_STAGE`."""
     uses: dict[str, Use] = {}
@@ -91,38 +94,17 @@ def stage_rows(contestant: str, records: Sequence[Record]) -> Iterator[CostRow]:
             stages[stage] = stages.get(stage, Use()) + use
     for stage in sorted(stages, key=lambda name: (name == TEAM_STAGE, name)):
         yield CostRow(contestant, stage, stages[stage], len(records))
-    yield CostRow(contestant, ALL_STAGES, sum(map(use_of, records), Use()), len(records))
+    yield CostRow(contestant, ALL_STAGES, total_use(records), len(records))
 
 
 def cost_table(records: Sequence[Record]) -> Table | None:
-    """The table for the terminal; None if no language model was asked."""
-    rows = cost_rows(records)
-    if not rows:
+    """The table; None if no language model was asked."""
+    groups: dict[str, list[list[str]]] = {}
+    for row in cost_rows(records):
+        groups.setdefault(row.contestant, []).append(_cells(row))
+    if not groups:
         return None
-    table = Table(title="Calls of language models", title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in COLUMNS:
-        is_name = column in COLUMNS[:2]
-        table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
-    before = None
-    for row in rows:
-        cells = _cells(row)
-        name = "" if row.contestant == before else cells[0]
-        table.add_row(name, *cells[1:], end_section=row.stage == ALL_STAGES)
-        before = row.contestant
-    table.caption = cost_note(records)
-    table.caption_justify = "left"
-    return table
-
-
-def cost_markdown(records: Sequence[Record]) -> str | None:
-    """The table as Markdown; None if no language model was asked."""
-    rows = cost_rows(records)
-    if not rows:
-        return None
-    lines = ["## Calls of language models", ""]
-    lines += ["| " + " | ".join(COLUMNS) + " |", "|---|---|" + "---:|" * (len(COLUMNS) - 2)]
-    lines += ["| " + " | ".join(_cells(row)) + " |" for row in rows]
-    return "\n".join([*lines, "", f"- {cost_note(records)}"]) + "\n"
+    return plain_table("calls", "Calls of language models", COLUMNS, 2, groups.values(), [cost_note(records)])
 
 
 def cost_note(records: Iterable[Record]) -> str:

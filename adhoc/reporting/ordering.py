@@ -5,26 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from rich import box
-from rich.table import Table
+import numpy as np
 
-from adhoc.evaluation.records import Record
-from adhoc.reporting.pairing import (
-    Pair,
-    Team,
-    check_settings,
-    contestant,
-    labels,
-    pair_key,
-    pairs,
-    team_names,
-    team_of,
-)
-from adhoc.statistics.intervals import LEVEL, Interval, clustered_interval
+from adhoc.reporting.comparisons import BEYOND_CHANCE, Comparison, Family
+from adhoc.reporting.table import Table, plain_table
+from adhoc.statistics.intervals import LEVEL, Interval, Sample, clustered_intervals
 
 COLUMNS = ("Team", "ad hoc", "%Suc", "points over the team alone", "points over the first", "N", "houses")
-FEW_HOUSES = 10
-"""With fewer, intervals are too narrow to say anything is beyond chance."""
 
 
 @dataclass(frozen=True)
@@ -33,13 +20,31 @@ class Place:
 
     policy: str
     success: Interval
-    over_alone: Interval
-    """How much more often it succeeds than the team alone in the same scenarios."""
-    over_best: Interval | None
-    """The same against the most successful policy, the first of several, over the scenarios of both; None for
-    that itself."""
-    episodes: int
-    houses: int
+    alone: Comparison
+    """Against the team alone in the same scenarios."""
+    best: Comparison | None
+    """Against the most successful policy, the first of several, over the scenarios of both; None for that
+    itself, and where they share none."""
+
+    @property
+    def over_alone(self) -> Interval:
+        """How much more often it succeeds than the team alone."""
+        return self.alone.points
+
+    @property
+    def over_best(self) -> Interval | None:
+        """How much more often it succeeds than the most successful policy."""
+        return None if self.best is None else self.best.points
+
+    @property
+    def episodes(self) -> int:
+        """All of them paired with the team alone."""
+        return self.alone.test.pairs
+
+    @property
+    def houses(self) -> int:
+        """Where they were."""
+        return self.alone.test.houses
 
 
 @dataclass(frozen=True)
@@ -51,107 +56,65 @@ class Ordering:
     places: tuple[Place, ...]
 
 
-def orderings(records: Sequence[Record]) -> list[Ordering]:
-    """All orders that the records tell, by joining step and team in the order of the records."""
-    check_settings(records)
-    paired = pairs(records)
-    names, teams = labels(pair.joined for pair in paired), team_names(records)
-    groups: dict[tuple[int, Team], dict[str, list[Pair]]] = {}
-    for pair in paired:
-        group = groups.setdefault((pair.joined["join_step"], team_of(pair.joined)), {})
-        group.setdefault(names[contestant(pair.joined)], []).append(pair)
-    order = sorted(groups, key=lambda key: key[0])
-    return [Ordering(teams[team], join_step, _places(groups[join_step, team])) for join_step, team in order]
-
-
-def ordering_tables(records: Sequence[Record]) -> Iterator[Table]:
-    """One table for each joining step."""
-    found = orderings(records)
-    for join_step in dict.fromkeys(it.join_step for it in found):
-        table = Table(
-            title=f"By success, joining at step {join_step}; {_REMARK}",
-            title_justify="left",
-            box=box.SIMPLE_HEAD,
-            collapse_padding=True,
-            pad_edge=False,
+def orderings(found: Sequence[Family]) -> list[Ordering]:
+    """The order in each family, in the order of the families."""
+    outcomes = [
+        (values[np.isfinite(values)], family.board.houses[np.isfinite(values)])
+        for family in found
+        for values in family.board.policies.values()
+    ]
+    rates = iter(clustered_intervals([Sample.of(100.0 * values, houses) for values, houses in outcomes]))
+    return [
+        Ordering(
+            family.board.team,
+            family.board.join_step,
+            tuple(_place(family, alone, next(rates)) for alone in family.against_alone),
         )
-        for column in COLUMNS:
-            table.add_column(column, justify="left" if column in COLUMNS[:2] else "right")
-        for ordering in (it for it in found if it.join_step == join_step):
-            table.add_section()
-            for cells in _rows(ordering):
-                table.add_row(*cells)
-        yield table
+        for family in found
+    ]
 
 
-def ordering_markdown(records: Sequence[Record]) -> str:
-    """The same as Markdown; empty if there is nothing to order."""
-    lines: list[str] = []
-    found = orderings(records)
-    for join_step in dict.fromkeys(it.join_step for it in found):
-        lines += [f"## By success, joining at step {join_step}", "", f"{_REMARK}.", ""]
-        lines += ["| " + " | ".join(COLUMNS) + " |", "|---|---|" + "---:|" * (len(COLUMNS) - 2)]
-        for ordering in (it for it in found if it.join_step == join_step):
-            lines += ["| " + " | ".join(cells) + " |" for cells in _rows(ordering)]
-        lines.append("")
-    return "\n".join(lines)
+def ordering_tables(found: Sequence[Family]) -> Iterator[Table]:
+    """One for each joining step."""
+    orders = orderings(found)
+    for join_step in dict.fromkeys(it.join_step for it in orders):
+        here = [it for it in orders if it.join_step == join_step]
+        title = f"By success, joining at step {join_step}"
+        yield plain_table(f"order-{join_step}", title, COLUMNS, 2, map(_rows, here), _REMARKS)
 
 
-_REMARK = (
-    f"intervals of {LEVEL:.0%} by bootstrap over houses, each comparison by itself; "
-    f"*: the interval excludes no difference (never with fewer than {FEW_HOUSES} houses)"
+def told(interval: Interval, is_difference: bool, star: bool = False) -> str:
+    """A number with its interval; `[?]` where the episodes do not tell how far they scatter."""
+    mean, low, high = (_digits(it, is_difference) for it in (interval.mean, interval.low, interval.high))
+    return f"{mean} [{f'{low}, {high}' if interval.tells_spread else '?'}]{'*' if star else ''}"
+
+
+def _digits(number: float, is_difference: bool) -> str:
+    rounded = round(number, 1) + 0.0  # no minus before nothing
+    return f"{rounded:{'+' if is_difference else ''}.1f}"
+
+
+_REMARKS = (
+    f"in brackets the {LEVEL:.0%} interval by bootstrap over houses, each for itself; ? where all houses are "
+    "alike or there is but one",
+    f"*: beyond chance at {BEYOND_CHANCE:.0%} with all comparisons of the family taken together (Holm)",
 )
 
 
-def _places(policies: dict[str, list[Pair]]) -> tuple[Place, ...]:
-    rates = {
-        name: sum(pair.joined["success"] for pair in mine) / len(mine) for name, mine in policies.items()
-    }
-    order = sorted(policies, key=lambda name: -rates[name])
-    best = policies[order[0]]
-    return tuple(
-        Place(
-            name,
-            _interval([(float(pair.joined["success"]), pair.joined["house_id"]) for pair in policies[name]]),
-            _interval([(_gain(pair.joined, pair.alone), pair.joined["house_id"]) for pair in policies[name]]),
-            None if place == 0 else _against(policies[name], best),
-            len(policies[name]),
-            len({pair.joined["house_id"] for pair in policies[name]}),
-        )
-        for place, name in enumerate(order)
-    )
+def _place(family: Family, alone: Comparison, success: Interval) -> Place:
+    first = family.against_alone[0].policy
+    return Place(alone.policy, success, alone, family.between(alone.policy, first))
 
 
-def _against(mine: Sequence[Pair], best: Sequence[Pair]) -> Interval | None:
-    theirs = {pair_key(pair.joined): pair.joined for pair in best}
-    shared = [pair.joined for pair in mine if pair_key(pair.joined) in theirs]
-    gains = [(_gain(it, theirs[pair_key(it)]), it["house_id"]) for it in shared]
-    return _interval(gains) if gains else None
-
-
-def _gain(record: Record, other: Record) -> float:
-    return float(record["success"]) - float(other["success"])
-
-
-def _interval(values: Sequence[tuple[float, str]]) -> Interval:
-    return clustered_interval([100.0 * value for value, _ in values], [house for _, house in values])
-
-
-def _rows(ordering: Ordering) -> Iterator[list[str]]:
-    for number, place in enumerate(ordering.places):
-        yield [
-            ordering.team if number == 0 else "",
+def _rows(ordering: Ordering) -> Iterator[tuple[str, ...]]:
+    for place in ordering.places:
+        best = place.best
+        yield (
+            ordering.team,
             place.policy,
-            _told(place.success),
-            _told(place.over_alone, place.houses),
-            "-" if place.over_best is None else _told(place.over_best, place.houses),
+            told(place.success, False),
+            told(place.over_alone, True, place.alone.beyond_chance),
+            "-" if best is None else told(best.points, True, best.beyond_chance),
             str(place.episodes),
             str(place.houses),
-        ]
-
-
-def _told(interval: Interval, houses_of_difference: int | None = None) -> str:
-    is_difference = houses_of_difference is not None
-    sign = "+" if is_difference else ""
-    star = "*" if (houses_of_difference or 0) >= FEW_HOUSES and interval.excludes_zero else ""
-    return f"{interval.mean:{sign}.1f} [{interval.low:{sign}.1f}, {interval.high:{sign}.1f}]{star}"
+        )

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from typing import TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
+from typing import NamedTuple, TypeVar
 
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.records import Record
+from adhoc.evaluation.settings_files import Settings, differing
 
 PairKey = tuple[str, ...]
 Named = TypeVar("Named")
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(NamedTuple):
     """An episode with a newcomer and the team alone in the same scenario under the same limits."""
 
     joined: Record
     alone: Record
 
 
-@dataclass(frozen=True)
-class Team:
+class Team(NamedTuple):
     """A team with the model that it, or the task, asks: one block of a table."""
 
     name: str
@@ -31,8 +30,7 @@ class Team:
     model: str | None
 
 
-@dataclass(frozen=True)
-class Contestant:
+class Contestant(NamedTuple):
     """A policy with its model, in a team: one row of a table."""
 
     team: Team
@@ -43,19 +41,33 @@ class Contestant:
 
 def team_of(record: Record) -> Team:
     """The team of an episode."""
-    return Team(record["team"], record["team_label"], record.get("team_model"))
+    return contestant(record).team
 
 
 def contestant(record: Record) -> Contestant:
     """Whose row the episode belongs to."""
-    return Contestant(team_of(record), record["policy"], str(record["policy_label"]), record["model"])
+    return _contestant(
+        record["team"],
+        record["team_label"],
+        record.get("team_model"),
+        record["policy"],
+        record["policy_label"],
+        record["model"],
+    )
+
+
+@lru_cache(maxsize=4096)
+def _contestant(
+    team: str, team_label: str, team_model: str | None, policy: str, label: str, model: str | None
+) -> Contestant:
+    """There are few, and many records of each."""
+    return Contestant(Team(team, team_label, team_model), policy, str(label), model)
 
 
 def pair_key(record: Record) -> PairKey:
     """Equal for an episode and that of the team alone in the same scenario under the same limits."""
-    team = team_of(record)
-    limits = (record["scenario_hash"], str(record["max_steps"]))
-    return (team.name, str(team.model), record["task_id"], *limits)
+    scenario = (record["task_id"], record["scenario_hash"])
+    return (record["team"], str(record.get("team_model")), *scenario, str(record["max_steps"]))
 
 
 def alone_records(records: Iterable[Record]) -> dict[PairKey, Record]:
@@ -78,8 +90,8 @@ def pairs(records: Sequence[Record]) -> list[Pair]:
     Raises RecordError for a newcomer that was measured against another episode of the team alone.
     """
     alone = alone_records(records)
-    joined = (record for record in records if record["join_step"] is not None)
-    found = [Pair(record, alone[pair_key(record)]) for record in joined if pair_key(record) in alone]
+    joined = ((record, alone.get(pair_key(record))) for record in records if record["join_step"] is not None)
+    found = [Pair(record, reference) for record, reference in joined if reference is not None]
     for pair in found:
         reference = pair.joined.get("reference_temporal_steps")
         if reference is not None and reference != pair.alone["temporal_steps"]:
@@ -91,18 +103,41 @@ def pairs(records: Sequence[Record]) -> list[Pair]:
     return found
 
 
-def check_settings(records: Iterable[Record]) -> None:
-    """Raise RecordError if one row would be of episodes with different settings."""
+def check_settings(records: Iterable[Record], settings: Mapping[str, Settings] | None = None) -> None:
+    """Raise RecordError if one row would be of episodes with different settings, or one team's rows of
+    different settings of team, task, world or limits.
+
+    Args:
+        records: What is to be reported together.
+        settings: What the `config_hash`es stand for, as far as it is known: it tells what differs.
+    """
+    known = settings or {}
     first: dict[tuple[Contestant, bool], Record] = {}
     for record in records:
         row = (contestant(record), record["join_step"] is None)
         other = first.setdefault(row, record)
         if other["config_hash"] != record["config_hash"]:
-            raise RecordError(
-                f"{other['episode_id']!r} and {record['episode_id']!r} were run with different settings "
-                f"(config_hash {other['config_hash']} and {record['config_hash']}); report the runs apart, "
-                "or give one of them a name of its own"
-            )
+            raise RecordError(_told_apart(other, record, known))
+    shared: dict[Team, tuple[Record, Settings]] = {}
+    for (who, _), record in first.items():
+        if record["config_hash"] not in known:
+            continue
+        mine = {name: value for name, value in known[record["config_hash"]].items() if name != "policy"}
+        other, theirs = shared.setdefault(who.team, (record, mine))
+        if theirs != mine:
+            parts = {other["config_hash"]: theirs, record["config_hash"]: mine}
+            raise RecordError(_told_apart(other, record, parts))
+
+
+def _told_apart(one: Record, other: Record, settings: Mapping[str, Settings]) -> str:
+    hashes = [record["config_hash"] for record in (one, other)]
+    before, now = (settings.get(name) for name in hashes)
+    told = "" if before is None or now is None else differing(before, now, "in the first", "in the other")
+    return (
+        f"{one['episode_id']!r} and {other['episode_id']!r} were run with different settings "
+        f"({told or f'config_hash {hashes[0]} and {hashes[1]}'}); report the runs apart, or give one of "
+        "them a name of its own"
+    )
 
 
 def team_names(records: Iterable[Record]) -> dict[Team, str]:

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import asdict
-
-from rich import box
-from rich.table import Table
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import fields
 
 from adhoc.evaluation.predictions import PARTS, Accuracy
 from adhoc.evaluation.records import Record
 from adhoc.reporting.pairing import Contestant, contestant, labels, team_names
+from adhoc.reporting.table import Table, plain_table
 
 FIELD = "predictions"
+COUNTS = tuple(field.name for field in fields(Accuracy))
 TITLE = "Predictions of what teammates do next"
 COLUMNS = (
     "Team",
@@ -31,43 +31,33 @@ EXPLANATION = (
 
 
 def prediction_table(records: Sequence[Record]) -> Table | None:
-    """The table for the terminal; None if nobody predicted anything."""
+    """The table; None if nobody predicted anything."""
     rows = list(_rows(records))
-    if not rows:
-        return None
-    table = Table(title=TITLE, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in COLUMNS:
-        table.add_column(column, justify="left" if column in COLUMNS[:2] else "right")
-    for row in rows:
-        table.add_row(*row)
-    table.caption, table.caption_justify = _explanation(records), "left"
-    return table
-
-
-def prediction_markdown(records: Sequence[Record]) -> str:
-    """The same as Markdown; empty if nobody predicted anything."""
-    rows = list(_rows(records))
-    if not rows:
-        return ""
-    lines = [f"## {TITLE}", "", _line(COLUMNS), "|---|---|" + "---:|" * (len(COLUMNS) - 2)]
-    return "\n".join([*lines, *map(_line, rows), "", f"- {_explanation(records)}"]) + "\n"
+    return plain_table("predictions", TITLE, COLUMNS, 2, [rows], [_explanation(records)]) if rows else None
 
 
 def _rows(records: Sequence[Record]) -> Iterator[tuple[str, ...]]:
     """One for each team and each policy of a model that predicted; records of other versions may lack the
     field."""
-    totals: dict[Contestant, dict[str, Accuracy]] = {}
-    teams = team_names(records)
+    groups: dict[Contestant, list[Record]] = {}
     for record in records:
-        found = record.get(FIELD)
-        if found and any(found[f"{part}s"]["made"] for part in PARTS):
-            total = totals.setdefault(contestant(record), {part: Accuracy() for part in PARTS})
-            for part, accuracy in total.items():
-                for name, count in asdict(accuracy).items():
-                    setattr(accuracy, name, count + int(found[f"{part}s"][name]))
-    names = labels(records)
-    for row, total in totals.items():
-        yield (teams[row.team], names[row], *(cell for part in PARTS for cell in _cells(total[part])))
+        groups.setdefault(contestant(record), []).append(record)
+    of_each = [mine[0] for mine in groups.values()]
+    teams, names = team_names(of_each), labels(of_each)
+    for row, everything in groups.items():
+        found = [it[FIELD] for it in everything if it.get(FIELD)]
+        if not any(it[f"{part}s"]["made"] for it in found for part in PARTS):
+            continue
+        parts = [_sum(it[f"{part}s"] for it in found) for part in PARTS]
+        yield (teams[row.team], names[row], *(cell for part in parts for cell in _cells(part)))
+
+
+def _sum(counts: Iterable[Mapping[str, int]]) -> Accuracy:
+    total = Counter[str]()
+    for one in counts:
+        for name in COUNTS:
+            total[name] += int(one[name])
+    return Accuracy(**{name: total[name] for name in COUNTS})
 
 
 def _cells(accuracy: Accuracy) -> tuple[str, ...]:
@@ -85,7 +75,3 @@ def _percent(count: int, of: int) -> str:
 def _explanation(records: Sequence[Record]) -> str:
     within = sorted({int(record[FIELD]["within"]) for record in records if record.get(FIELD)})
     return EXPLANATION.format(" or ".join(map(str, within)))
-
-
-def _line(cells: Sequence[str]) -> str:
-    return f"| {' | '.join(cells)} |"

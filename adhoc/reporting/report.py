@@ -1,18 +1,13 @@
-"""The paper's table from episode records, and from nothing else (section Experimental Results)."""
+"""The paper's tables as numbers, from episode records and from nothing else (section Quantitative
+Performance)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from rich import box
-from rich.table import Table
-
-from adhoc.core.errors import RecordError
-from adhoc.evaluation.llm_field import JUDGED
-from adhoc.evaluation.metrics import EpisodeScore, Improvement, Scores, average, improvement
-from adhoc.evaluation.records import FILE_NAME, Record, RecordFile
+from adhoc.evaluation.records import Record
+from adhoc.evaluation.settings_files import Settings
 from adhoc.reporting.pairing import (
     Contestant,
     Pair,
@@ -27,245 +22,116 @@ from adhoc.reporting.pairing import (
     team_names,
     team_of,
 )
+from adhoc.reporting.paper_order import policy_order, team_order
+from adhoc.reporting.remarks import Names, remarks
+from adhoc.reporting.rows import ResultRow, averages, gain_of, uncertainties
 
-COLUMNS = ("Team", "ad hoc", "%Suc ↑", "%PS ↑", "#TS ↓", "#AS ↓", "%SE ↑", "N")
-
-
-@dataclass(frozen=True)
-class Row:
-    """One team with one ad hoc policy (or without), at one joining step.
-
-    `scores` are over the episodes whose team-alone episode is there too, `gain` against those.
-    """
-
-    team: str
-    ad_hoc: str
-    scores: Scores
-    gain: Improvement | None
-    """None for the team alone."""
-
-
-@dataclass(frozen=True)
-class Names:
-    """What teams and rows are called."""
-
-    teams: Mapping[Team, str]
-    rows: Mapping[Contestant, str]
+ALONE = "No ad hoc"
+"""What the paper calls the team alone."""
 
 
 @dataclass(frozen=True)
 class Block:
-    """One table of the paper: all rows of one joining step."""
+    """All rows of one joining step, in the paper's order: of each team first the team alone."""
 
     join_step: int | None
-    """None if the folder holds no newcomer."""
-    rows: tuple[Row, ...]
+    """None if the records hold no newcomer."""
+    rows: tuple[ResultRow, ...]
 
 
 @dataclass(frozen=True)
 class Report:
-    """Everything that is printed."""
+    """All results, and what a reader must know of them."""
 
     blocks: tuple[Block, ...]
     models: tuple[str, ...]
     """Names of the language models that made it; empty if none was used."""
     notes: tuple[str, ...]
     warnings: tuple[str, ...] = ()
-    """How much of each row is not the model's doing: invalid replies, and safe choices taken instead."""
 
     @property
     def title(self) -> str:
         """What it is and which model made it."""
-        return f"Heterogeneous ad hoc teamwork; language model: {', '.join(self.models) or 'none used'}"
+        return f"Heterogeneous ad hoc teamwork; {self.model}"
+
+    @property
+    def model(self) -> str:
+        """Which model made it, for the title of every table."""
+        return f"language model: {', '.join(self.models) or 'none used'}"
 
 
-def read_folders(folders: Iterable[str | Path]) -> list[Record]:
-    """The records of all folders. Raises RecordError if a folder has none, one is damaged, or the same
-    episode is in two folders."""
-    records: dict[str, Record] = {}
-    for folder in folders:
-        found = RecordFile(folder).read()
-        if not found:
-            raise RecordError(f"{Path(folder) / FILE_NAME}: no episode records; is it the out=... of a run?")
-        for record in found:
-            if record["episode_id"] in records:
-                raise RecordError(f"{folder}: episode {record['episode_id']!r} is in another folder as well")
-            records[record["episode_id"]] = record
-    return list(records.values())
+def make_report(
+    records: Sequence[Record], intervals: bool = False, settings: Mapping[str, Settings] | None = None
+) -> Report:
+    """Derive all rows. Episodes without a team-alone partner are in none and counted in a note.
 
+    Args:
+        records: Of one or more runs.
+        intervals: Also say how far each number can be trusted.
+        settings: What the records' `config_hash`es stand for, to say what differs where records do not belong
+            together.
 
-def make_report(records: Sequence[Record]) -> Report:
-    """Derive the table. Episodes without a team-alone partner are left out of it and counted in a note.
-
-    Raises RecordError for records that do not belong together (see `reporting.pairing`).
+    Raises:
+        RecordError: The records do not belong together (see `reporting.pairing`).
     """
-    check_settings(records)
+    check_settings(records, settings)
     alone, paired = alone_records(records), pairs(records)
-    join_steps: list[int | None] = sorted({pair.joined["join_step"] for pair in paired})
-    joined = [pair.joined for pair in paired]
-    names = Names(team_names(records), labels(joined))
+    names = Names(team_names(records), labels(pair.joined for pair in paired))
+    drafts = list(_drafts(alone, paired, names))
+    if intervals:
+        found = uncertainties([(draft.mine, draft.alone) for draft in drafts])
+        drafts = [replace(it, row=replace(it.row, uncertainty=how)) for it, how in zip(drafts, found)]
+    blocks = tuple(
+        Block(step, tuple(it.row for it in drafts if it.join_step == step))
+        for step in dict.fromkeys(it.join_step for it in drafts)
+    )
+    told = remarks(records, alone, paired, names)
     return Report(
-        tuple(_block(join_step, paired, alone, names) for join_step in join_steps or [None]),
+        blocks,
         tuple(sorted({record["model"] for record in records if record["model"] is not None})),
-        tuple(_notes(records, len(paired))),
-        tuple(_warnings([*alone.values(), *joined], names)),
+        told.notes,
+        told.warnings,
     )
 
 
-def to_table(report: Report, block: Block) -> Table:
-    """One block as a table for the terminal."""
-    table = Table(
-        title=f"{report.title}\n{_when(block)}",
-        title_justify="left",
-        box=box.SIMPLE_HEAD,
-        collapse_padding=True,
-        pad_edge=False,
-    )
-    for column in COLUMNS:
-        is_name = column in COLUMNS[:2]
-        table.add_column(column, justify="left" if is_name else "right", no_wrap=not is_name)
-    team = None
-    for row in block.rows:
-        cells = row_cells(row)
-        if team is not None and row.team != team:
-            table.add_section()
-        table.add_row("" if row.team == team else cells[0], *cells[1:])
-        team = row.team
-    return table
+@dataclass(frozen=True)
+class _Draft:
+    """A row and what it was made from."""
+
+    join_step: int | None
+    row: ResultRow
+    mine: Sequence[Record]
+    alone: Sequence[Record]
 
 
-def to_markdown(report: Report) -> str:
-    """The whole report as Markdown."""
-    lines = [f"# {report.title}", ""]
-    for block in report.blocks:
-        lines += [f"## {_when(block)}", ""]
-        lines += ["| " + " | ".join(COLUMNS) + " |", "|---|---|" + "---:|" * (len(COLUMNS) - 2)]
-        lines += ["| " + " | ".join(row_cells(row)) + " |" for row in block.rows]
-        lines.append("")
-    lines += [f"- **{warning}**" for warning in report.warnings]
-    lines += [f"- {note}" for note in report.notes]
-    return "\n".join(lines).rstrip() + "\n"
+def _drafts(alone: Mapping[PairKey, Record], paired: Iterable[Pair], names: Names) -> Iterator[_Draft]:
+    groups: dict[int, dict[Team, dict[Contestant, list[Pair]]]] = {}
+    for pair in paired:
+        who = contestant(pair.joined)
+        teams_then = groups.setdefault(pair.joined["join_step"], {})
+        teams_then.setdefault(who.team, {}).setdefault(who, []).append(pair)
+    if not groups:
+        teams: dict[Team, list[Record]] = {}
+        for record in alone.values():
+            teams.setdefault(team_of(record), []).append(record)
+        for team in sorted(teams, key=team_order):
+            yield _alone(None, team, teams[team], names)
+    for step in sorted(groups):
+        for team in sorted(groups[step], key=team_order):
+            mine = groups[step][team]
+            keys = dict.fromkeys(pair_key(pair.alone) for of_one in mine.values() for pair in of_one)
+            yield _alone(step, team, [alone[key] for key in keys], names)
+            for who in sorted(mine, key=policy_order):
+                yield _joined(step, who, mine[who], names)
 
 
-def row_cells(row: Row) -> list[str]:
-    """The cells of one row, in the order of `COLUMNS`; improvements in brackets, `-` where there is none
-    and `n/a` where the team alone has zero to improve on."""
-    scores, gain = row.scores, row.gain
-    return [
-        row.team,
-        row.ad_hoc,
-        f"{scores.success:.1f} {_bracket('success', gain)}",
-        f"{scores.partial_success:.1f} {_bracket('partial_success', gain)}",
-        f"{scores.temporal_steps:.1f} {_bracket('temporal_steps', gain)}",
-        f"{scores.action_steps:.1f} {_bracket('action_steps', gain)}",
-        "-" if scores.efficiency is None else f"{scores.efficiency:.1f}",
-        str(scores.episodes),
-    ]
+def _alone(step: int | None, team: Team, records: Sequence[Record], names: Names) -> _Draft:
+    row = ResultRow(team, None, names.teams[team], ALONE, averages(records), None)
+    return _Draft(step, row, records, ())
 
 
-def _block(
-    join_step: int | None, paired: Sequence[Pair], alone: Mapping[PairKey, Record], names: Names
-) -> Block:
-    here = [pair for pair in paired if pair.joined["join_step"] == join_step]
-    rows = []
-    for team in dict.fromkeys(map(team_of, alone.values())):
-        of_team = [pair for pair in here if team_of(pair.joined) == team]
-        keys = dict.fromkeys(pair_key(pair.joined) for pair in of_team)
-        references = [alone[key] for key in keys] or [
-            record for record in alone.values() if not here and team_of(record) == team
-        ]
-        if references:
-            rows.append(Row(names.teams[team], "No ad hoc", _average(references), None))
-        for who in dict.fromkeys(contestant(pair.joined) for pair in of_team):
-            mine = [pair for pair in of_team if contestant(pair.joined) == who]
-            rows.append(_row(names.teams[team], names.rows[who], mine))
-    return Block(join_step, tuple(rows))
-
-
-def _row(team: str, label: str, mine: Sequence[Pair]) -> Row:
-    scores = _average([pair.joined for pair in mine])
-    return Row(team, label, scores, improvement(_average([pair.alone for pair in mine]), scores))
-
-
-def _average(records: Sequence[Record]) -> Scores:
-    return average(
-        [
-            EpisodeScore(
-                record["success"],
-                record["partial_success"],
-                record["temporal_steps"],
-                record["action_steps"],
-                record["efficiency"],
-            )
-            for record in records
-        ]
-    )
-
-
-def _notes(records: Sequence[Record], paired: int) -> Iterable[str]:
-    joined = sum(record["join_step"] is not None for record in records)
-    houses = len({record["house_id"] for record in records})
-    scenarios = len({(record["task_id"], record["scenario_hash"]) for record in records})
-    steps = " or ".join(map(str, sorted({record["max_steps"] for record in records})))
-    yield f"scenarios: {scenarios}; houses: {houses}; steps: at most {steps}"
-    yield f"{paired} paired episodes, N in a row"
-    yield "in brackets: percent better than the team alone in the same scenarios"
-    if joined > paired:
-        yield f"{joined - paired} episodes left out: their team-alone episode is missing"
-    never = sum(record["join_step"] is not None and not record["joined"] for record in records)
-    if never:
-        yield f"{never} of them ended before the newcomer would have joined"
-    versions = sorted({record["library_version"] for record in records})
-    if len(versions) > 1:
-        yield f"made by several versions of the library: {', '.join(versions)}"
-
-
-def _warnings(records: Sequence[Record], names: Names) -> Iterable[str]:
-    """One line for each row's name in whose episodes a model was not understood or a planner gave up.
-
-    Of a team alone it is the team's own models and planners, which its rows with a newcomer count too.
-    """
-    by_name: dict[str, list[Record]] = {}
-    for record in records:
-        alone = record["join_step"] is None
-        team = names.teams[team_of(record)]
-        name = f"{team} alone" if alone else names.rows[contestant(record)]
-        name = name if alone or len(names.teams) == 1 else f"{name} beside {team}"
-        by_name.setdefault(name, []).append(record)
-    for name, mine in by_name.items():
-        invalid, repaired = _total(mine, "llm", "invalid"), _total(mine, "llm", "repaired")
-        asked = _asked(mine) or _total(mine, "llm", "calls")
-        counts = "team_planning" if mine[0]["join_step"] is None else "planning"
-        decisions, fallbacks = _total(mine, counts, "sub_tasks"), _total(mine, counts, "fallbacks")
-        parts = [f"{invalid} of {asked} questions to the model got no usable reply"] if invalid else []
-        parts += [f"{repaired} of {asked} only when asked again"] if repaired else []
-        parts += [f"{fallbacks} of {decisions} decisions fell back to the safe choice"] if fallbacks else []
-        if parts:
-            yield f"{name}: {'; '.join(parts)}"
-
-
-def _asked(records: Sequence[Record]) -> int:
-    """How many questions the models were asked; one that was asked again after a bad reply counts once.
-
-    Records of other versions may not tell.
-    """
-    outcomes = [record.get("llm", {}).get("outcomes", {}) for record in records]
-    return sum(int(counts.get(outcome, 0)) for counts in outcomes for outcome in JUDGED)
-
-
-def _total(records: Sequence[Record], field: str, count: str) -> int:
-    """The sum of a count over records; those of other versions may lack it."""
-    return sum(int(record.get(field, {}).get(count, 0)) for record in records)
-
-
-def _when(block: Block) -> str:
-    return (
-        "The team alone" if block.join_step is None else f"The ad hoc robot joins at step {block.join_step}"
-    )
-
-
-def _bracket(metric: str, gain: Improvement | None) -> str:
-    if gain is None:
-        return "(-)"
-    value: float | None = getattr(gain, metric)
-    return "(n/a)" if value is None else f"({value:.1f})"
+def _joined(step: int, who: Contestant, mine: Sequence[Pair], names: Names) -> _Draft:
+    joined = [pair.joined for pair in mine]
+    scores = averages(joined)
+    row = ResultRow(who.team, who, names.teams[who.team], names.rows[who], scores, gain_of(mine, scores))
+    return _Draft(step, row, joined, [pair.alone for pair in mine])

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.records import Record
+from adhoc.reporting.comparisons import families
 from adhoc.reporting.ordering import Place, orderings
 
 MISTAKES = ("forget_capability", "ignore_teammate", "ignore_reply")
@@ -63,7 +64,7 @@ def sensitivity(records: Mapping[Setting, Sequence[Record]]) -> Sensitivity:
     Raises:
         RecordError: they hold no newcomers, or several teams, joining steps or models.
     """
-    found = {setting: orderings(mine) for setting, mine in records.items()}
+    found = {setting: orderings(families(mine)) for setting, mine in records.items()}
     compared = {(it.team, it.join_step) for orders in found.values() for it in orders}
     models = {it["model"] for mine in records.values() for it in mine if it["join_step"] is not None}
     if len(compared) != 1 or len(models - {None}) != 1:
@@ -124,4 +125,5 @@ def _cell(place: Place | None) -> str:
     if place is None:
         return "-"
     gain = place.over_alone
-    return f"{place.success.mean:.1f} [{gain.low:+.0f}, {gain.high:+.0f}]"
+    bounds = f"{gain.low:+.0f}, {gain.high:+.0f}" if gain.tells_spread else "?"
+    return f"{place.success.mean:.1f} [{bounds}]"

@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from adhoc.reporting.figures.style import whisker
 from adhoc.reporting.sensitivity import MISTAKES, Sensitivity
 
 COLOURS = ("#2a78b5", "#d1242f", "#3c9d6b", "#8f5aa8", "#e09f1f", "#7a4a2b", "#14181f", "#c4589a")
@@ -59,10 +60,7 @@ def _draw_panel(axes: Axes, found: Sensitivity, kind: str) -> None:
         axes.errorbar(
             [rate for rate, _ in shown],
             means,
-            yerr=(
-                [gain.mean - gain.low for _, gain in shown],
-                [gain.high - gain.mean for _, gain in shown],
-            ),
+            yerr=tuple(zip(*(whisker(gain) for _, gain in shown))),
             color=COLOURS[number % len(COLOURS)],
             marker=MARKERS[number % len(MARKERS)],
             markersize=4.5,

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import os
+import sys
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -228,7 +230,8 @@ class Bullet:
 
 def _pybullet() -> Any:
     try:
-        import pybullet
+        with _quiet_stderr():
+            import pybullet
     except ImportError as error:
         raise MissingDependency(
             "the simulated world needs PyBullet, which is not installed: pip install 'pybullet>=3.2.5'"
@@ -242,3 +245,17 @@ def _quaternion(yaw: float) -> tuple[float, float, float, float]:
 
 def _chunks(boxes: tuple[Box, ...], size: int) -> list[tuple[Box, ...]]:
     return [boxes[start : start + size] for start in range(0, len(boxes), size)]
+
+
+@contextmanager
+def _quiet_stderr() -> Iterator[None]:
+    """PyBullet says when it was built, below Python, when it is imported."""
+    sys.stderr.flush()
+    before = os.dup(2)
+    try:
+        with open(os.devnull, "w") as nowhere:
+            os.dup2(nowhere.fileno(), 2)
+        yield
+    finally:
+        os.dup2(before, 2)
+        os.close(before)

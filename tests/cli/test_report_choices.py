@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "evaluation"))
+sys.path.insert(0, str(Path(__file__).parents[1] / "reporting"))
 
 from test_report import RECORDS, failed
 
@@ -30,6 +31,36 @@ def test_the_order_comes_with_intervals_if_asked(folder, tmp_path, capsys):
     assert main(["report", folder, "--intervals", "--markdown", str(tmp_path / "table.md")]) == 0
     assert "By success, joining at step 50" in capsys.readouterr().out
     assert "## By success, joining at step 0" in (tmp_path / "table.md").read_text(encoding="utf-8")
+
+
+def test_comparisons_and_power_come_last_if_asked(folder, tmp_path, capsys):
+    page = tmp_path / "table.md"
+    assert main(["report", folder, "--intervals", "--power", "--markdown", str(page)]) == 0
+    told = capsys.readouterr().out
+    assert (
+        told.index("By success") < told.index("Who is told apart") < told.index("Tasks needed to tell apart")
+    )
+    text = page.read_text(encoding="utf-8")
+    assert "## Who is told apart, joining at step 0" in text
+    assert "## Tasks needed to tell apart, joining at step 50" in text
+    assert main(["report", folder, "--power", "--difference", "20", "--family", "report"]) == 0
+    told = capsys.readouterr().out
+    assert "Who is told apart" not in told
+    assert "20 points" in told
+
+
+@pytest.mark.parametrize(
+    ("options", "fault"),
+    [
+        (["--difference", "5"], "--difference 5: goes with --power"),
+        (["--power", "--difference", "0"], "0 points: a difference to be told is above 0"),
+    ],
+)
+def test_a_difference_that_cannot_be_told_is_an_error(folder, capsys, options, fault):
+    assert main(["report", folder, *options]) == 2
+    told = capsys.readouterr()
+    assert fault in told.err
+    assert told.out == ""
 
 
 def test_only_what_is_named_is_shown_beside_the_teams_alone(folder, capsys):

@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-import io
 import json
 from typing import ClassVar
 
 import pytest
 from grid_world import Errand, GridWorld, Script, fetch, scenario
-from rich.console import Console
 from test_records import record
-from test_run import Quiet
 
 from adhoc.core.values import Action, ActionName
 from adhoc.evaluation.common_sense import (
     Agreement,
-    agreement_markdown,
-    agreement_table,
     agreements,
     judgement_counts,
 )
 from adhoc.evaluation.contender import Conditions, Contender
 from adhoc.evaluation.records import RecordFile
+from adhoc.experiments.comparison import Comparison, Entrant
 from adhoc.experiments.folder import RunFolder
 from adhoc.experiments.run import run_comparison
 from adhoc.llm.counting import CountingModel
@@ -29,6 +25,7 @@ from adhoc.llm.episode_model import EpisodeModel
 from adhoc.llm.ledger.recording import LedgerModel
 from adhoc.llm.model import LanguageModel, LMResponse, Usage
 from adhoc.llm.scripted import ScriptedModel
+from adhoc.reporting.agreement_table import agreement_table
 from adhoc.tasks.llm_common_sense import LLMCommonSense
 from adhoc.tasks.placement import PlacementCommonSense
 
@@ -90,15 +87,9 @@ def run(folder, backend, newcomer=True, scenarios=(0, 1)):
     helper = Contender(
         "helper", "Helper", lambda seat: Script(*fetch("apple", "counter")), {"name": "helper"}
     )
-    run_comparison(
-        GridWorld(),
-        [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in scenarios],
-        conditions,
-        helper if newcomer else None,
-        5,
-        RunFolder(folder),
-        Quiet(),
-    )
+    where = [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in scenarios]
+    entrants = (Entrant(helper, 5),) if newcomer else ()
+    run_comparison(Comparison(GridWorld(), where, conditions, entrants), RunFolder(folder))
     return records(folder)
 
 
@@ -179,18 +170,15 @@ class TestReport:
         assert agreements(self.RECORDS)["tiny"].accuracy == pytest.approx(200 / 3)
 
     def test_the_table_names_every_judge(self):
-        console = Console(width=150, file=io.StringIO())
-        console.print(agreement_table(self.RECORDS))
-        lines = console.file.getvalue().splitlines()
-        assert [line.split() for line in lines if line.strip().startswith(("big", "tiny"))] == [
+        table = agreement_table(self.RECORDS)
+        assert table is not None
+        assert [[cell.text for cell in row.cells] for row in table.groups[0]] == [
             ["big", "-", "0", "0", "0", "0"],
             ["tiny", "66.7", "4", "2", "1", "21"],
         ]
-        assert "| tiny | 66.7 | 4 | 2 | 1 | 21 |" in agreement_markdown(self.RECORDS)
 
     def test_without_a_judge_there_is_no_table(self):
         assert agreement_table(self.RECORDS[3:]) is None
-        assert agreement_markdown(self.RECORDS[3:]) == ""
 
 
 class TestReferee:
@@ -213,5 +201,6 @@ class TestReferee:
         )
         steps = fetch("apple", "counter") + fetch("knife", "counter")
         helper = Contender("helper", "Helper", lambda seat: Script(*steps), {})
-        run_comparison(GridWorld(), [scenario()], conditions, helper, 0, RunFolder(tmp_path), Quiet())
+        comparison = Comparison(GridWorld(), [scenario()], conditions, (Entrant(helper, 0),))
+        run_comparison(comparison, RunFolder(tmp_path))
         assert records(tmp_path)[1]["success"] is True

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import pytest
 from grid_world import Errand, GridWorld, Script, fetch, scenario
-from test_run import Quiet
 
 from adhoc.agents.dialects.codes import Codes
 from adhoc.agents.dialects.speaking import Speaking
@@ -16,13 +15,15 @@ from adhoc.agents.imperfect.untruthful import UntruthfulPolicy
 from adhoc.core.errors import ConfigurationError, EpisodeError
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Action, ActionName, Capability, Pose
-from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
+from adhoc.evaluation.contender import Conditions, Contender
 from adhoc.evaluation.episode import run_episode
+from adhoc.evaluation.episode_key import EpisodeKey, EpisodeKind
 from adhoc.evaluation.episode_result import Ending
 from adhoc.evaluation.imperfections import PERFECT, Imperfections
 from adhoc.evaluation.records import RecordFile
 from adhoc.evaluation.sampling import sample_scenario
 from adhoc.evaluation.scenario import Displacement, Member
+from adhoc.experiments.comparison import Comparison, Entrant
 from adhoc.experiments.folder import RunFolder
 from adhoc.experiments.run import run_comparison
 from adhoc.houses.samples import sample_house
@@ -318,7 +319,7 @@ TEAM = Contender("walkers", "Walkers", lambda seat: Script(), {"name": "walkers"
 class TestRuns:
     def test_without_imperfections_an_episode_is_known_as_before(self):
         """Folders of earlier versions must stay resumable: this hash was computed before there were any."""
-        key = EpisodeKey(scenario(), Conditions(Errand(), TEAM, settings={"world": {"size": 1}}))
+        key = EpisodeKey(scenario(), EpisodeKind(Conditions(Errand(), TEAM, settings={"world": {"size": 1}})))
         assert key.config_hash == "549d9290eb6ae4f4"
         assert key.id == "two_rooms-s0--walkers--alone"
         assert set(key.settings) == {"max_steps", "failed_share", "team", "world"}
@@ -329,7 +330,8 @@ class TestRuns:
         for faults in ({}, {"loss": 0.5, "leaves": {0: 3}}, {"breaks_down": {"1": 4}}):
             conditions = Conditions(Errand(), talkers, max_steps=10, imperfections=Imperfections(**faults))
             helper = Contender("helper", "Helper", lambda seat: Script(say="hi"), {})
-            run_comparison(GridWorld(), [scenario()], conditions, helper, 5, folder, Quiet())
+            comparison = Comparison(GridWorld(), [scenario()], conditions, (Entrant(helper, 5),))
+            run_comparison(comparison, folder)
         records = RecordFile(tmp_path).read()
         assert len({it["config_hash"] for it in records}) == 6
         assert [it["team"] for it in records[::2]] == [

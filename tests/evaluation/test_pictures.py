@@ -11,10 +11,12 @@ from markdown_it import MarkdownIt
 from adhoc.agents.policy import Turn
 from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import ReplyError
-from adhoc.evaluation.contender import Conditions, Contender, EpisodeKey
+from adhoc.evaluation.contender import Conditions, Contender
 from adhoc.evaluation.episode import run_episode
+from adhoc.evaluation.episode_key import EpisodeKey, EpisodeKind
 from adhoc.evaluation.exchanges import TranscribingModel
-from adhoc.evaluation.floor_drawing import draw_floor_plan, footprint
+from adhoc.evaluation.floor_drawing import draw_floor_plan
+from adhoc.evaluation.floor_shapes import footprint
 from adhoc.evaluation.picture import draw_episode
 from adhoc.evaluation.recording import make_record
 from adhoc.evaluation.transcript import write_transcript
@@ -51,7 +53,10 @@ def play(newcomer, max_steps=20, join_step=3):
     where = scenario()
     result = run_episode(GridWorld(), where, Errand(), [Script(), Script()], newcomer, join_step, max_steps)
     conditions = Conditions(Errand(), Contender("walkers", "Walkers", lambda seat: Script()), max_steps)
-    key = EpisodeKey(where, conditions, Contender("thinker", "Thinker", lambda seat: Script()), join_step)
+    key = EpisodeKey(
+        where,
+        EpisodeKind(conditions, Contender("thinker", "Thinker", lambda seat: Script()), join_step),
+    )
     return result, make_record(key, result, None, {}, 0.0)
 
 
@@ -62,7 +67,7 @@ class TestPicture:
         draw_episode(result, record, path)
         pixels = matplotlib.image.imread(path)[..., :3]
         assert pixels.shape[1] == 990
-        for colour in ("#e09f1f", "#2a78b5", "#d1242f", "#1a7f37", "#fbe8d3", "#dde7f5"):
+        for colour in ("#e69f00", "#0072b2", "#c1272d", "#006e53", "#fbe8d3", "#dde7f5"):
             wanted = np.array([int(colour[i : i + 2], 16) / 255 for i in (1, 3, 5)])
             assert (np.abs(pixels - wanted).max(axis=-1) < 0.02).sum() > 20, colour
 
@@ -172,6 +177,10 @@ def test_exchanges_are_taken_once_and_bounded():
         "stage": "generate",
         "prompt": [{"role": "user", "content": "question"}],
         "reply": "one",
+        "model": "tiny",
+        "prompt_tokens": 1,
+        "completion_tokens": 1,
+        "cost_usd": 0.0,
     }
     assert "nothing" in second["reply"]
     assert model.take("") == []

@@ -28,7 +28,9 @@ from adhoc.evaluation.predictions import Doings, Foresight
 from adhoc.evaluation.transcript import write_transcript
 from adhoc.planning.gpl import GPLEvaluator, GPLGenerator
 from adhoc.planning.reflect import AcceptFirst
-from adhoc.reporting.prediction_table import prediction_markdown, prediction_table
+from adhoc.reporting.prediction_table import prediction_table
+from adhoc.reporting.rendering.markdown import markdown_table
+from adhoc.reporting.rendering.terminal import terminal_table
 
 
 def doings(*sub_tasks: str | None) -> Doings:
@@ -165,14 +167,14 @@ class TestTable:
             record("IRoT-LLM", 0, 0),
             {name: it for name, it in record("old", 1).items() if name != "predictions"},
         ]
-        text = prediction_markdown(records)
+        text = markdown_table(prediction_table(records))
         assert "| Heuristic based | GPL-LLM | 37.5 | 37.5 | 8 of 8 | - | - | 0 of 0 |" in text
         assert text.count("\n| ") == 2
         assert "first new one within 20 steps" in text
 
     def test_teams_and_models_are_told_apart(self):
         records = [record("GPL", 1), record("GPL", 2, team="LLM"), record("GPL", 3, model="n")]
-        rows = prediction_markdown(records).splitlines()[4:7]
+        rows = markdown_table(prediction_table(records)).splitlines()[4:7]
         assert [row.split(" | ")[:3] for row in rows] == [
             ["| Heuristic based", "GPL (m)", "25.0"],
             ["| LLM", "GPL", "50.0"],
@@ -181,11 +183,11 @@ class TestTable:
 
     def test_without_predictions_there_is_no_table(self):
         assert prediction_table([record("IRoT-LLM", 0, 0)]) is None
-        assert prediction_markdown([]) == ""
+        assert prediction_table([]) is None
 
     def test_the_table_for_the_terminal_says_the_same(self):
         console = Console(width=110, file=io.StringIO())
-        console.print(prediction_table([record("GPL-LLM", 1)]))
+        console.print(terminal_table(prediction_table([record("GPL-LLM", 1)])))
         assert "25.0" in console.file.getvalue()
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import pytest
-from grid_world import GridWorld, Script
-from test_run import HELP, HELPER, SCENARIOS, Quiet, conditions, run
+from grid_world import Script
+from test_run import HELP, HELPER, run
 
 from adhoc.core.errors import BudgetReached
 from adhoc.evaluation.contender import Contender
 from adhoc.evaluation.records import RecordFile, checked_part
-from adhoc.experiments.folder import RunFolder
-from adhoc.experiments.run import run_comparison
 from adhoc.llm.budget import Caps, EpisodeCapModel, RunCapModel, Spent
 from adhoc.llm.counting import CountingModel
 from adhoc.llm.model import LMRequest
@@ -93,7 +91,7 @@ def test_an_episode_that_was_finished_is_not_unfinished_whatever_the_file_says(t
     (tmp_path / "unfinished.jsonl").write_bytes(before)
     capped = chatty(RunCapModel(script(), Caps(calls=3)))
     with pytest.raises(BudgetReached):
-        run_comparison(GridWorld(), SCENARIOS, conditions(), capped, 7, RunFolder(tmp_path), Quiet())
+        run(tmp_path, newcomer=capped, join_step=7)
     assert [record["episode_id"] for record in unfinished(tmp_path)] == [
         "two_rooms-s0--walkers--chatty-tiny--t7"
     ]

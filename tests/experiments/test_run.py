@@ -9,10 +9,11 @@ from pathlib import Path
 import pytest
 from grid_world import Errand, GridWorld, Script, fetch, scenario, two_rooms
 
-from adhoc.core.errors import ConfigurationError, EpisodeError, RecordError
+from adhoc.core.errors import ConfigurationError, EpisodesFailed, RecordError
 from adhoc.core.values import Action, ActionName
 from adhoc.evaluation.contender import Conditions, Contender
 from adhoc.evaluation.records import RecordFile
+from adhoc.experiments.comparison import Comparison, Entrant
 from adhoc.experiments.folder import RunFolder
 from adhoc.experiments.run import run_comparison
 from adhoc.llm.counting import CountingModel
@@ -28,17 +29,17 @@ class Quiet:
     def __init__(self):
         self.told = []
 
-    def begin(self, episodes):
-        self.total = episodes
-
-    def skipped(self, record):
-        self.told.append(("skipped", record["episode_id"]))
+    def begin(self, plan):
+        self.total = plan.to_run
 
     def started(self, episode_id):
         self.told.append(("started", episode_id))
 
     def finished(self, record):
         self.told.append(("finished", record["episode_id"]))
+
+    def failed(self, failure):
+        self.told.append(("failed", failure.episode_id))
 
 
 TEAM = Contender("walkers", "Walkers", lambda seat: Script(), {"name": "walkers"})
@@ -53,24 +54,17 @@ def conditions(**changes):
     )
 
 
-def run(folder, newcomer=HELPER, join_step=5, world=None, scenarios=SCENARIOS, **changes):
+def run(folder, newcomer=HELPER, join_step=5, world=None, scenarios=SCENARIOS, tolerance=None, **changes):
     progress = Quiet()
-    summary = run_comparison(
-        world or GridWorld(),
-        scenarios,
-        conditions(**changes),
-        newcomer,
-        join_step,
-        RunFolder(folder),
-        progress,
-    )
-    return summary, progress
+    entrants = () if newcomer is None else (Entrant(newcomer, join_step),)
+    comparison = Comparison(world or GridWorld(), scenarios, conditions(**changes), entrants)
+    return run_comparison(comparison, RunFolder(folder, tolerance), progress), progress
 
 
 def test_every_scenario_is_run_alone_and_with_the_newcomer(tmp_path):
     summary, _ = run(tmp_path)
     records = RecordFile(tmp_path).read()
-    assert (summary.run, summary.skipped) == (4, 0)
+    assert (summary.run, summary.recorded) == (4, 0)
     assert [it["episode_id"] for it in records] == [
         "two_rooms-s0--walkers--alone",
         "two_rooms-s0--walkers--helper--t5",
@@ -92,17 +86,17 @@ def test_the_same_command_again_runs_nothing(tmp_path):
     run(tmp_path)
     before = (tmp_path / "episodes.jsonl").read_bytes()
     summary, progress = run(tmp_path)
-    assert (summary.run, summary.skipped) == (0, 4)
-    assert {what for what, _ in progress.told} == {"skipped"}
+    assert (summary.run, summary.recorded) == (0, 4)
+    assert progress.told == []
     assert (tmp_path / "episodes.jsonl").read_bytes() == before
 
 
 def test_the_team_alone_is_shared_by_policies_and_joining_steps(tmp_path):
     run(tmp_path)
     summary, _ = run(tmp_path, newcomer=IDLER, join_step=7)
-    assert (summary.run, summary.skipped) == (2, 2)
+    assert (summary.run, summary.recorded) == (2, 2)
     summary, _ = run(tmp_path, newcomer=None)
-    assert (summary.run, summary.skipped) == (0, 2)
+    assert (summary.run, summary.recorded) == (0, 2)
 
 
 def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
@@ -113,7 +107,7 @@ def test_a_killed_run_goes_on_where_it_stopped(tmp_path):
     path.write_bytes(b"".join(lines[:2]) + lines[2][:100])
     with pytest.warns(UserWarning, match="incomplete last record"):
         summary, _ = run(tmp_path)
-    assert (summary.run, summary.skipped) == (2, 2)
+    assert (summary.run, summary.recorded) == (2, 2)
     assert [{**it, "wall_s": 0} for it in RecordFile(tmp_path).read()] == whole
 
 
@@ -136,7 +130,7 @@ def test_another_scenario_of_the_same_name_is_refused(tmp_path):
 
 
 def test_a_disturbed_past_is_reported_and_not_recorded(tmp_path):
-    with pytest.raises(EpisodeError, match="two_rooms-s0"):
+    with pytest.raises(EpisodesFailed, match=r"two_rooms-s.*EpisodeError"):
         run(tmp_path, world=GridWorld(disturb_step=3))
     assert len(RecordFile(tmp_path).read()) == 1
 
@@ -145,7 +139,7 @@ def test_a_disturbed_past_is_reported_against_an_old_record(tmp_path):
     run(tmp_path, newcomer=None)
     world = GridWorld(disturb_step=3)
     world.resets = 1
-    with pytest.raises(EpisodeError, match="at step 3"):
+    with pytest.raises(EpisodesFailed, match="at step 3"):
         run(tmp_path, world=world)
 
 

@@ -66,15 +66,12 @@ def test_a_remote_model_leaves_nothing_to_the_defaults_of_a_language_model():
 
 class TestAgenda:
     def full(self, count=3, deaths=3):
-        agenda = Agenda(deaths)
-        agenda.fill([f"s{number}" for number in range(count)])
-        return agenda
+        return Agenda(range(count), deaths)
 
     def test_scenarios_are_handed_out_in_order_and_once(self):
         agenda = self.full()
-        agenda.fill(["another", "list"])
         assert [agenda.next(0), agenda.next(1), agenda.next(0)] == [0, 1, 2]
-        assert not agenda.has_work
+        assert not agenda.open_units
         assert agenda.next(1) is None
         assert (agenda.is_dismissed(1), agenda.is_dismissed(0)) == (True, False)
 
@@ -117,7 +114,7 @@ class TestAgenda:
         agenda.next(0)
         agenda.next(0)
         agenda.lose(0, "signal SIGKILL")
-        assert not agenda.has_work
+        assert not agenda.open_units
 
 
 class TestCallThreads:

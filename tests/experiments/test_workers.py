@@ -4,13 +4,25 @@ import os
 import signal
 import threading
 from collections import Counter
+from functools import partial
 
 import pytest
-from worker_setups import Compare, nothing, refuse
+from worker_setups import Compare, Refusing
 
-from adhoc.core.errors import ConfigurationError, EpisodeError, ModelBusy, ModelError, ReplyError, WorkerError
+from adhoc.core.errors import (
+    ConfigurationError,
+    EpisodesFailed,
+    ModelBusy,
+    ModelError,
+    ReplyError,
+    WorkerError,
+)
 from adhoc.evaluation.records import RecordFile, checked_part
+from adhoc.experiments.failures import Tolerance
 from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.plan import make_plan
+from adhoc.experiments.run import run_comparison
+from adhoc.experiments.workers.crew import SpawnedWorker
 from adhoc.experiments.workers.parent import DEATHS, run_in_workers
 from adhoc.llm.model import LanguageModel, LMRequest, LMResponse, Usage
 
@@ -19,17 +31,17 @@ class Progress:
     def __init__(self):
         self.total, self.told = None, Counter()
 
-    def begin(self, episodes):
-        self.total = episodes
-
-    def skipped(self, record):
-        self.told["skipped", record["episode_id"]] += 1
+    def begin(self, plan):
+        self.total = plan.to_run
 
     def started(self, episode_id):
         self.told["started", episode_id] += 1
 
     def finished(self, record):
         self.told["finished", record["episode_id"]] += 1
+
+    def failed(self, failure):
+        self.told["failed", failure.episode_id] += 1
 
     def count(self, what):
         return sum(times for (told, _), times in self.told.items() if told == what)
@@ -58,9 +70,11 @@ class Provider(LanguageModel):
 
 
 def run(folder, make, workers=2, provider=None, **options):
-    progress = Progress()
+    progress, store = Progress(), RunFolder(folder, options.pop("tolerance", None))
     provider = provider or Provider()
-    summary = run_in_workers(make, lambda: provider, workers, RunFolder(folder), progress, **options)
+    plan = make_plan([make.comparison(Provider())], store)
+    hire, make_model = partial(SpawnedWorker, make=make), options.pop("provider_of", lambda: provider)
+    summary = run_in_workers(plan, hire, make_model, workers, store, progress, **options)
     return summary, progress
 
 
@@ -71,11 +85,11 @@ def records_of(folder):
 
 def test_the_records_are_those_of_one_process(tmp_path):
     make, alone = Compare(), Provider()
-    make(alone).run(RunFolder(tmp_path / "serial"), Progress())
+    run_comparison(make.comparison(alone), RunFolder(tmp_path / "serial"), Progress())
     provider = Provider()
     summary, progress = run(tmp_path / "workers", make, provider=provider)
     assert records_of(tmp_path / "workers") == records_of(tmp_path / "serial")
-    assert (summary.run, summary.skipped, progress.total) == (6, 0, 6)
+    assert (summary.run, summary.recorded, progress.total) == (6, 0, 6)
     assert progress.count("finished") == progress.count("started") == 6
     assert provider.asked == alone.asked
     assert sorted(provider.begun) == sorted(alone.begun)
@@ -88,7 +102,7 @@ def test_the_same_again_runs_nothing(tmp_path):
     before = (tmp_path / "episodes.jsonl").read_bytes()
     provider = Provider()
     summary, progress = run(tmp_path, Compare(scenarios=2), provider=provider)
-    assert (summary.run, summary.skipped, progress.count("skipped")) == (0, 4, 4)
+    assert (summary.run, summary.recorded, progress.total) == (0, 4, 0)
     assert (tmp_path / "episodes.jsonl").read_bytes() == before
     assert not provider.asked
 
@@ -138,13 +152,14 @@ def test_errors_of_the_model_reach_the_policy_with_their_fields(tmp_path):
         run(tmp_path, Compare(scenarios=1), provider=Refusing())
     assert (caught.value.retry_after, caught.value.rate_limited) == (7.0, True)
 
+
+def test_an_unusable_reply_that_nobody_catches_fails_the_episode(tmp_path):
     class Mumbling(Provider):
         def complete(self, request):
             raise ReplyError("nothing usable", outcome="empty")
 
-    with pytest.raises(ReplyError) as mumbled:
+    with pytest.raises(EpisodesFailed, match=r"s0--walkers--asker-provider--t3.*ReplyError: nothing usable"):
         run(tmp_path, Compare(scenarios=1), provider=Mumbling())
-    assert mumbled.value.outcome == "empty"
 
 
 def test_a_fault_of_the_parents_model_ends_the_run(tmp_path):
@@ -161,31 +176,38 @@ def test_a_model_that_cannot_be_built_ends_the_run(tmp_path):
         raise ModelError("no key")
 
     with pytest.raises(ModelError, match="no key"):
-        run_in_workers(Compare(), missing, 1, RunFolder(tmp_path), Progress())
+        run(tmp_path, Compare(), provider_of=missing)
 
 
-def test_errors_of_a_worker_are_those_of_one_process(tmp_path):
+def test_a_worker_that_cannot_begin_ends_the_run(tmp_path):
     with pytest.raises(ModelError, match="there is no such model"):
-        run(tmp_path, refuse)
-    with pytest.raises(ConfigurationError, match="there are no scenarios to run"):
-        run(tmp_path, nothing)
-    with pytest.raises(EpisodeError, match="two_rooms-s0"):
+        run(tmp_path, Refusing())
+
+
+def test_a_disturbed_past_fails_the_episode(tmp_path):
+    with pytest.raises(EpisodesFailed, match=r"two_rooms-s0.*EpisodeError"):
         run(tmp_path, Compare("disturbed", 1))
 
 
-def test_a_fault_in_a_worker_ends_the_run_and_names_the_episode(tmp_path, capfd):
-    with pytest.raises(WorkerError, match=r"two_rooms-s0--walkers--faulty--t3.*exit code 1"):
-        run(tmp_path, Compare("faulty", 1))
-    assert "ZeroDivisionError: a fault in a policy" in capfd.readouterr().err
+def test_failed_episodes_are_kept_and_the_others_run(tmp_path):
+    summary, progress = run(tmp_path, Compare("faulty", 2), tolerance=Tolerance(None))
+    assert (summary.run, summary.failed, progress.count("failed")) == (2, 2, 2)
+    (first, second) = sorted(RunFolder(tmp_path).failures, key=lambda it: it.task_id)
+    assert (first.episode_id, first.error) == ("two_rooms-s0--walkers--faulty--t3", "ZeroDivisionError")
+    assert "a fault in a policy" in second.trace
+
+
+def test_more_failures_than_borne_end_the_run(tmp_path):
+    with pytest.raises(EpisodesFailed, match=r"2 of 6 episodes failed.*fail_on_error=1"):
+        run(tmp_path, Compare("faulty", 3), tolerance=Tolerance(1), workers=1)
 
 
 def test_the_episode_of_a_killed_worker_is_run_again(tmp_path):
     compare = Compare("dying", 2, str(tmp_path), deaths=DEATHS - 1)
     summary, progress = run(tmp_path / "killed", compare)
     assert len(list(tmp_path.glob("death-*"))) == DEATHS - 1
-    assert (summary.run, summary.skipped, progress.count("finished")) == (4, 0, 4)
+    assert (summary.run, summary.recorded, progress.count("finished")) == (4, 0, 4)
     assert progress.count("started") == 4 + DEATHS - 1
-    assert progress.count("skipped") == 0
     run(tmp_path / "undisturbed", Compare("dying", 2, str(tmp_path)))
     assert records_of(tmp_path / "killed") == records_of(tmp_path / "undisturbed")
 
@@ -235,6 +257,6 @@ def test_numbers_out_of_range_are_refused(tmp_path, numbers):
 
 
 def test_no_worker_is_left_behind(tmp_path):
-    with pytest.raises(EpisodeError):
+    with pytest.raises(EpisodesFailed):
         run(tmp_path, Compare("disturbed", 1))
     assert workers_of_this_process() == []

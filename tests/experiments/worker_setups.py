@@ -15,7 +15,7 @@ from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import ModelError
 from adhoc.core.values import Action, ActionName
 from adhoc.evaluation.contender import Conditions, Contender
-from adhoc.experiments.workers.comparison import Comparison
+from adhoc.experiments.comparison import Comparison, Comparisons, Entrant
 from adhoc.llm.counting import CountingModel
 from adhoc.llm.model import LMRequest
 
@@ -78,7 +78,7 @@ class Stammering(Dying):
 
 @dataclass(frozen=True)
 class Compare:
-    """`MakeComparison`: so many scenarios, a team of scripts, and a newcomer of some kind."""
+    """`MakeComparisons`, of one: so many scenarios, a team of scripts, and a newcomer of some kind."""
 
     newcomer: str = "asker"
     scenarios: int = 3
@@ -86,13 +86,14 @@ class Compare:
     deaths: int = 0
 
     def __call__(self, model):
-        counting = CountingModel(model)
+        return Comparisons([lambda: self.comparison(model)])
+
+    def comparison(self, model):
         return Comparison(
             self.world(),
             [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in range(self.scenarios)],
             Conditions(Errand(), Contender("walkers", "Walkers", lambda seat: Script(), {}), max_steps=12),
-            self.contender(counting),
-            3,
+            (Entrant(self.contender(CountingModel(model)), 3),),
         )
 
     def world(self):
@@ -116,11 +117,8 @@ class Compare:
         return Contender(self.newcomer, self.newcomer, make, {}, model if uses_model else None)
 
 
-def refuse(model):
-    """A `MakeComparison` whose components cannot be built."""
-    raise ModelError("llm.model='gpt-9': there is no such model")
+class Refusing(Compare):
+    """Its components cannot be built in a worker."""
 
-
-def nothing(model):
-    """A `MakeComparison` without scenarios."""
-    return replace(Compare()(model), scenarios=[])
+    def __call__(self, model):
+        raise ModelError("llm.model='gpt-9': there is no such model")

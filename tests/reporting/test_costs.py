@@ -6,7 +6,8 @@ import pytest
 from test_records import record
 
 from adhoc.experiments.estimate import spread_evenly, spread_of
-from adhoc.reporting.cost_table import CostRow, Use, cost_markdown, cost_rows, cost_table, dollars
+from adhoc.reporting.cost_table import CostRow, Use, cost_rows, cost_table, dollars
+from adhoc.reporting.rendering.markdown import markdown_table
 
 
 def episode(task, stages, policy="IRoT-LLM", join_step=0, model="gpt", replayed=0):
@@ -49,16 +50,14 @@ def test_rows_are_sums_by_stage_with_the_team_as_one():
 
 
 def test_the_table_tells_what_the_ledger_spared():
-    text = cost_markdown(RECORDS)
-    assert text is not None
+    text = markdown_table(cost_table(RECORDS))
     assert "| IRoT-LLM (gpt) | all | 10 | 100 | 10 | 2.50 | 1.25 |" in text
     assert "1 calls were answered by a ledger" in text
-    assert "ledger" not in (cost_markdown(RECORDS[2:3]) or "")
+    assert "ledger" not in markdown_table(cost_table(RECORDS[2:3]))
 
 
 def test_without_a_language_model_there_is_no_table():
     assert cost_table(RECORDS[3:]) is None
-    assert cost_markdown(RECORDS[3:]) is None
     assert cost_table(RECORDS) is not None
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from adhoc.reporting.ordering import ordering_markdown, ordering_tables, orderings
+from adhoc.reporting.comparisons import families
+from adhoc.reporting.ordering import ordering_tables, orderings, told
+from adhoc.reporting.rendering.markdown import markdown_table
+from adhoc.statistics.intervals import Interval
 
 HOUSES = [f"house {number}" for number in range(12)]
 
@@ -35,7 +38,7 @@ def joined(policy, succeeds, **options):
 
 def test_the_most_successful_comes_first_with_its_paired_differences():
     records = [*alone(), *joined("poor", {0}), *joined("good", {0, 1, 2, 3, 4, 5})]
-    (ordering,) = orderings(records)
+    (ordering,) = orderings(families(records))
     good, poor = ordering.places
     assert (good.policy, poor.policy) == ("good", "poor")
     assert good.success.mean == good.over_alone.mean == 50.0
@@ -49,7 +52,7 @@ def test_the_most_successful_comes_first_with_its_paired_differences():
 
 def test_equal_policies_are_not_told_apart():
     records = [*alone(), *joined("a", {0, 1}), *joined("b", {2, 3})]
-    (ordering,) = orderings(records)
+    (ordering,) = orderings(families(records))
     assert [it.policy for it in ordering.places] == ["a", "b"]
     assert not ordering.places[1].over_best.excludes_zero
 
@@ -62,17 +65,17 @@ def test_teams_and_joining_steps_are_ordered_each_for_itself():
         *joined("a", {0}, team="LLM based", model="m"),
         *joined("a", {0}),
     ]
-    assert [(it.join_step, it.team) for it in orderings(records)] == [
+    assert [(it.join_step, it.team) for it in orderings(families(records))] == [
         (50, "LLM based"),
         (50, "Heuristic based"),
         (100, "Heuristic based"),
     ]
-    assert len(list(ordering_tables(records))) == 2
+    assert [sum(map(len, it.groups)) for it in ordering_tables(families(records))] == [2, 1]
 
 
 def test_only_shared_scenarios_are_compared():
     records = [*alone(), *joined("a", set(range(12))), *joined("b", {0, 1})[:2]]
-    (ordering,) = orderings(records)
+    (ordering,) = orderings(families(records))
     assert ordering.places[1].over_best.mean == 0.0
     assert ordering.places[1].episodes == 2
 
@@ -84,11 +87,35 @@ def test_a_policy_has_its_model_in_its_name_only_where_two_are_told_apart_in_one
         *joined("Random", {0}),
         *joined("Random", {0}, team="LLM based", model="m"),
     ]
-    assert [it.places[0].policy for it in orderings(records)] == ["Random", "Random"]
+    assert [it.places[0].policy for it in orderings(families(records))] == ["Random", "Random"]
+
+
+def page(records):
+    return "\n".join(map(markdown_table, ordering_tables(families(records))))
 
 
 def test_the_page_marks_what_is_beyond_chance():
-    text = ordering_markdown([*alone(), *joined("good", {0, 1, 2, 3, 4, 5})])
+    text = page([*alone(), *joined("good", {0, 1, 2, 3, 4, 5})])
     assert "| Heuristic based | good | 50.0 [" in text
     assert "]* | - | 12 |" in text
-    assert ordering_markdown(alone()) == ""
+    assert page(alone()) == ""
+
+
+def test_five_houses_are_never_beyond_chance_whatever_the_interval_says():
+    text = page([*alone(), *joined("good", {0, 1, 2, 3, 4})])
+    assert "good" in text
+    assert "]*" not in text
+
+
+def test_many_comparisons_take_the_mark_from_one_that_had_it_alone():
+    """Six wins of six have p = 0.03, and three times that among three comparisons."""
+    text = page([*alone(), *joined("good", {0, 1, 2, 3, 4, 5}), *joined("poor", {0, 1})])
+    assert "]*" not in text
+
+
+def test_how_a_number_is_told():
+    assert told(Interval(12.34, -1.0, 20.0), True) == "+12.3 [-1.0, +20.0]"
+    assert told(Interval(12.34, -0.04, 20.0), True, star=True) == "+12.3 [+0.0, +20.0]*"
+    assert told(Interval(50.0, 40.0, 60.0), False) == "50.0 [40.0, 60.0]"
+    assert told(Interval(50.0, 50.0, 50.0), False) == "50.0 [?]"
+    assert told(Interval(50.0, float("-inf"), float("inf")), False) == "50.0 [?]"

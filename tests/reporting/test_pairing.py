@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import pytest
-from test_report import episode, failed
+from test_report import cells_of, episode, failed
 
 from adhoc.core.errors import RecordError
+from adhoc.reporting.comparisons import families
 from adhoc.reporting.cost_table import cost_rows
-from adhoc.reporting.ordering import ordering_markdown, orderings
-from adhoc.reporting.report import make_report, row_cells
+from adhoc.reporting.ordering import orderings
+from adhoc.reporting.pairing import check_settings
+from adhoc.reporting.report import make_report
 
 
 def rows(*records):
-    return [row_cells(row)[:4] for row in make_report(records).blocks[0].rows]
+    return [cells_of(row)[:4] for row in make_report(records).blocks[0].rows]
 
 
 def test_two_models_of_one_team_have_each_its_own_reference():
@@ -51,7 +53,7 @@ def test_policies_of_one_label_keep_apart_in_table_and_order():
         failed("x", "irot_x", 0, "m", policy_label="IRoT"),
     ]
     assert [row[1] for row in rows(*records)] == ["No ad hoc", "IRoT (m) (irot)", "IRoT (m) (irot_x)"]
-    (ordering,) = orderings(records)
+    (ordering,) = orderings(families(records))
     assert [(it.policy, it.success.mean) for it in ordering.places] == [
         ("IRoT (m) (irot)", 100.0),
         ("IRoT (m) (irot_x)", 0.0),
@@ -67,6 +69,31 @@ def test_episodes_of_different_settings_are_not_averaged():
     ]
     with pytest.raises(RecordError, match="different settings"):
         make_report(records)
+
+
+def test_what_differs_between_settings_is_named_if_it_is_known():
+    records = [episode("x"), episode("x", "IRoT", 0), episode("y"), episode("y", "IRoT", 0, config_hash="b")]
+    settings = {
+        "abc": {"world": {"reach": 1.5}, "max_steps": 500},
+        "b": {"world": {"reach": 2.0}, "max_steps": 500},
+    }
+    with pytest.raises(RecordError, match=r"\(world\.reach: 1\.5 in the first, 2\.0 in the other\)"):
+        check_settings(records, settings)
+
+
+def test_rows_of_one_team_share_all_but_the_policy():
+    records = [
+        episode("x"),
+        episode("x", "IRoT", 0, config_hash="b"),
+        episode("x", "CoT", 0, config_hash="c"),
+    ]
+    world = {"world": {"reach": 1.5}}
+    settings = {"abc": world, "b": {**world, "policy": {"n": 3}}, "c": {**world, "policy": {"n": 1}}}
+    check_settings(records, settings)
+    settings["c"] = {"world": {"reach": 2.0}, "policy": {"n": 1}}
+    with pytest.raises(RecordError, match=r"'x-CoT-0-None' were run with different settings \(world\.reach"):
+        check_settings(records, settings)
+    check_settings(records, {"abc": world})
 
 
 def test_a_newcomer_that_was_measured_against_another_episode_is_refused():
@@ -90,15 +117,3 @@ def test_what_a_newcomer_costs_beside_each_team():
         "IRoT beside Heuristic based (gpt)": 1.0,
         "IRoT beside LLM based (gpt)": 9.0,
     }
-
-
-def test_a_star_needs_ten_houses():
-    few = [it for house in range(9) for it in _gain(house)]
-    many = [it for house in range(10) for it in _gain(house)]
-    assert "+100.0, +100.0]* |" not in ordering_markdown(few)
-    assert "+100.0, +100.0]* |" in ordering_markdown(many)
-
-
-def _gain(house):
-    task = f"task {house}"
-    return [failed(task, house_id=task), episode(task, "IRoT", 0, house_id=task)]

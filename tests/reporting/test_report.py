@@ -5,7 +5,10 @@ from test_records import record
 
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.records import RecordFile
-from adhoc.reporting.report import make_report, read_folders, row_cells, to_markdown, to_table
+from adhoc.reporting.folders import read_folders
+from adhoc.reporting.paper_layout import paper_tables, result_cells
+from adhoc.reporting.rendering.markdown import markdown_table
+from adhoc.reporting.report import make_report
 
 
 def episode(task, policy=None, join_step=None, model=None, **changes):
@@ -26,6 +29,10 @@ def episode(task, policy=None, join_step=None, model=None, **changes):
     return record(**fields)
 
 
+def cells_of(row):
+    return [row.team_name, row.ad_hoc, *(cell.text for cell in result_cells(row))]
+
+
 def failed(task, *arguments, **changes):
     failure = {"success": False, "partial_success": 0.5, "temporal_steps": 500, "action_steps": 1500}
     return episode(task, *arguments, **{**failure, **changes})
@@ -44,7 +51,7 @@ RECORDS = [
 def test_rows_are_worked_out_over_paired_episodes():
     report = make_report(RECORDS)
     assert [block.join_step for block in report.blocks] == [0, 50]
-    alone, irot, random = (row_cells(row) for row in report.blocks[1].rows)
+    alone, irot, random = (cells_of(row) for row in report.blocks[1].rows)
     assert alone == [
         "Heuristic based", "No ad hoc", "50.0 (-)", "75.0 (-)", "350.0 (-)", "1000.0 (-)", "-", "2",
     ]  # fmt: skip
@@ -71,21 +78,20 @@ def test_the_model_and_the_number_of_pairs_are_named():
         "scenarios: 2; houses: 1; steps: at most 500",
         "4 paired episodes, N in a row",
     )
-    markdown = to_markdown(report)
-    assert "## The ad hoc robot joins at step 50" in markdown
-    assert "| Heuristic based | IRoT-LLM | 100.0 (100.0) |" in markdown
-    assert to_table(report, report.blocks[1]).row_count == 3
+    table = list(paper_tables(report))[1]
+    assert table.title == "The ad hoc robot joins at step 50; language model: tiny"
+    assert "| Heuristic based | IRoT-LLM | **100.0 (100.0)** |" in markdown_table(table)
 
 
 def test_success_where_the_team_never_had_any_has_no_percentage():
     records = [failed("a"), episode("a", "IRoT-LLM", 0, "tiny")]
-    assert row_cells(make_report(records).blocks[0].rows[1])[2] == "100.0 (n/a)"
+    assert cells_of(make_report(records).blocks[0].rows[1])[2] == "100.0 (n/a)"
 
 
 def test_two_models_of_one_policy_are_two_rows():
     records = [*RECORDS, failed("a", "IRoT-LLM", 50, "huge")]
     names = [row.ad_hoc for row in make_report(records).blocks[1].rows]
-    assert names == ["No ad hoc", "IRoT-LLM (tiny)", "Random", "IRoT-LLM (huge)"]
+    assert names == ["No ad hoc", "IRoT-LLM (huge)", "IRoT-LLM (tiny)", "Random"]
     assert make_report(records).title.endswith("language model: huge, tiny")
 
 
@@ -126,14 +132,42 @@ def test_what_is_not_the_models_doing_is_told_for_each_row():
         failed("left out", "Naive-LLM", 50, "tiny", **talk(40, 40, 10, 10)),
     ]
     report = make_report(records)
-    assert report.warnings == (
+    assert sorted(it for it in report.warnings if "scenarios" not in it) == [
+        "CoT-LLM: 2 of 40 questions to the model got no usable reply; 7 of 40 only when asked again",
+        "IRoT-LLM (huge): 1 of 10 decisions fell back to the safe choice",
         "IRoT-LLM (tiny): 96 of 96 questions to the model got no usable reply; "
         "23 of 23 decisions fell back to the safe choice",
-        "IRoT-LLM (huge): 1 of 10 decisions fell back to the safe choice",
-        "CoT-LLM: 2 of 40 questions to the model got no usable reply; 7 of 40 only when asked again",
+    ]
+
+
+def test_a_few_misunderstandings_are_a_note_and_no_warning():
+    report = make_report([failed("a"), failed("a", "IRoT-LLM", 50, "tiny", **talk(100, 4, 100, 4))])
+    assert report.warnings == ()
+    assert report.notes[-1] == (
+        "IRoT-LLM: 4 of 100 questions to the model got no usable reply; "
+        "4 of 100 decisions fell back to the safe choice"
     )
-    assert to_markdown(report).count("**") == 2 * 3
-    assert f"- **{report.warnings[-1]}**" in to_markdown(report)
+
+
+def test_several_versions_of_the_library_are_a_warning_that_names_them():
+    records = [failed("a"), failed("a", "Random", 0, library_version="1.2")]
+    assert make_report(records).warnings == (
+        "made by several versions of the library, which may differ in what they do: 0 (1 episodes), 1.2 (1 "
+        "episodes)",
+    )
+
+
+def test_rows_over_other_tasks_than_their_neighbours_are_told():
+    (warning,) = (it for it in make_report(RECORDS).warnings if "scenarios" in it)
+    assert warning == (
+        "Heuristic based, joining at step 50: rows are not over the same 2 scenarios, so compare them with "
+        "the team alone and not with each other (Random 1)"
+    )
+
+
+def test_two_versions_of_a_task_are_told():
+    records = [failed("a"), failed("a", scenario_hash="other", episode_id="again")]
+    assert make_report(records).warnings[0].startswith("1 tasks are there in several versions")
 
 
 def test_a_team_with_a_model_is_told_of_too():

@@ -51,6 +51,13 @@ def test_every_kind_begins_at_the_run_without_mistakes():
         assert means == [8, 6, 2]
 
 
+def test_one_house_tells_no_interval(tmp_path):
+    found = sensitivity({it: [{**record, "house_id": "h"} for record in made] for it, made in runs().items()})
+    assert "| CoT | 66.7 [?] | 50.0 [?] | 16.7 [?] |" in sensitivity_markdown(found)
+    draw_sensitivity(found, tmp_path / "one.png")
+    assert matplotlib.image.imread(tmp_path / "one.png").std() > 0.0
+
+
 def test_the_page_names_the_model():
     text = sensitivity_markdown(sensitivity(runs()))
     assert "offline (not a language model)" in text.splitlines()[0]

@@ -10,6 +10,7 @@ from adhoc.agents.dialects.listening import Listener
 from adhoc.agents.policy import Ask, Policy, Turn
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Capability, Observation
+from adhoc.perception.semantic_map import SemanticMap
 from adhoc.tasks.task import Task
 
 
@@ -30,6 +31,11 @@ class Speaking(Policy):
         self.acts_apart = policy.acts_apart
         self._dialect = dialect
         self._listener = Listener(adapters)
+
+    @property
+    def map(self) -> SemanticMap | None:
+        """See `Policy`."""
+        return self.policy.map
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`."""

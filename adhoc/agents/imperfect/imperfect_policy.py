@@ -10,6 +10,7 @@ from adhoc.agents.dialects.speaking import Speaking
 from adhoc.agents.policy import Ask, Policy, Turn
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Capability, Observation
+from adhoc.perception.semantic_map import SemanticMap
 from adhoc.tasks.task import Task
 
 PUBLIC_REPORTS = frozenset(
@@ -42,6 +43,11 @@ class ImperfectPolicy(Policy):
     def tells(self, report: Message) -> Message:
         """What it says in place of one of its `PUBLIC_REPORTS`."""
         return report
+
+    @property
+    def map(self) -> SemanticMap | None:
+        """See `Policy`."""
+        return self.policy.map
 
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`."""

@@ -14,7 +14,8 @@ from matplotlib.patches import Patch
 from matplotlib.text import Text
 
 from adhoc.core.errors import ConfigurationError
-from adhoc.evaluation.floor_drawing import (
+from adhoc.evaluation.floor_drawing import draw_house
+from adhoc.evaluation.floor_shapes import (
     FURNITURE_EDGE,
     FURNITURE_FACE,
     MARGIN,
@@ -22,7 +23,6 @@ from adhoc.evaluation.floor_drawing import (
     OTHER_ROOM,
     ROOM_COLOURS,
     WALL,
-    draw_house,
 )
 from adhoc.houses import floor_plan
 from adhoc.houses.house import House, Room

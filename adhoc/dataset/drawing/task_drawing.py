@@ -16,7 +16,8 @@ from matplotlib.patheffects import withStroke
 from adhoc.core.values import Point, Pose
 from adhoc.dataset.drawing.label_places import LabelPlaces
 from adhoc.dataset.drawing.task_marks import INK, MARK, MISPLACED, ROBOT, draw_arrow, draw_number, draw_robot
-from adhoc.evaluation.floor_drawing import MARGIN, draw_house
+from adhoc.evaluation.floor_drawing import draw_house
+from adhoc.evaluation.floor_shapes import MARGIN
 from adhoc.evaluation.scenario import Displacement, Member, Scenario
 from adhoc.houses import floor_plan
 from adhoc.houses.house import FLOOR, House, HouseObject

@@ -1,4 +1,4 @@
-"""Which scenarios are still to be run, and by whom; no processes here."""
+"""Which units of a plan are still to be run, and by whom; no processes here."""
 
 from __future__ import annotations
 
@@ -6,42 +6,39 @@ from collections import Counter, deque
 from collections.abc import Sequence
 
 from adhoc.core.errors import WorkerError
+from adhoc.experiments.plan import Unit
 
 BEFORE_THE_FIRST_EPISODE = "(before the first episode)"
 
 
 class Agenda:
-    """Hands out scenarios in order. What a worker had when it died is handed out again, first of all.
+    """Hands out units in order. What a worker had when it died is handed out again, first of all.
 
     Args:
+        units: All there are.
         deaths: How many workers may die in one episode; the last of them ends the run.
     """
 
-    def __init__(self, deaths: int) -> None:
+    def __init__(self, units: Sequence[Unit], deaths: int) -> None:
         self._most_deaths = deaths
         self._deaths: Counter[str] = Counter()
-        self._open: deque[int] | None = None
-        self._held: dict[int, int] = {}
+        self._open = deque(units)
+        self._held: dict[int, Unit] = {}
         self._episodes: dict[int, str] = {}
         self._dismissed: set[int] = set()
 
     @property
-    def is_known(self) -> bool:
-        """Whether a worker has told yet what there is to do."""
-        return self._open is not None
+    def open_units(self) -> int:
+        """How many units nobody does yet."""
+        return len(self._open)
 
     @property
-    def has_work(self) -> bool:
-        """Whether there is something to do that nobody does, as far as is known."""
-        return self._open is None or bool(self._open)
+    def is_finished(self) -> bool:
+        """Whether everything is done."""
+        return not self._open and not self._held
 
-    def fill(self, scenarios: Sequence[str]) -> None:
-        """All scenarios of the run are to be done; later calls change nothing."""
-        if self._open is None:
-            self._open = deque(range(len(scenarios)))
-
-    def next(self, worker: int) -> int | None:
-        """The next scenario, for a worker that is done with the one before; None if there is none."""
+    def next(self, worker: int) -> Unit | None:
+        """The next unit, for a worker that is done with the one before; None if there is none."""
         self._held.pop(worker, None)
         self._episodes.pop(worker, None)
         if not self._open:
@@ -55,7 +52,7 @@ class Agenda:
         return worker in self._dismissed
 
     def note_episode(self, worker: int, episode: str) -> None:
-        """The worker began this episode of its scenario."""
+        """The worker began this episode of its unit."""
         self._episodes[worker] = episode
         del self._deaths[BEFORE_THE_FIRST_EPISODE]
 
@@ -74,10 +71,10 @@ class Agenda:
         if self.is_dismissed(worker):
             return
         episode = self.episode(worker)
-        position = self._held.pop(worker, None)
+        unit = self._held.pop(worker, None)
         self._episodes.pop(worker, None)
-        if position is not None and self._open is not None:
-            self._open.appendleft(position)
+        if unit is not None:
+            self._open.appendleft(unit)
         self._deaths[episode] += 1
         if self._deaths[episode] >= self._most_deaths:
             raise WorkerError(

@@ -1,34 +1,34 @@
-"""Starting and ending worker processes."""
+"""Starting and ending worker processes on this machine."""
 
 from __future__ import annotations
 
 import signal
-import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from multiprocessing import get_context, resource_tracker
 from multiprocessing.context import SpawnProcess
 
-from adhoc.experiments.workers.comparison import MakeComparison
+from adhoc.experiments.comparison import MakeComparisons
+from adhoc.experiments.workers.wire import Wire
 from adhoc.experiments.workers.worker import work
 
 LEAVING_S = 10.0
 """Seconds that a process is given to end before it is killed."""
 
 
-class Worker:
-    """One worker process, as its parent sees it. It dies with the parent.
+class SpawnedWorker:
+    """A `Worker` that is a process of this machine. It dies with the parent.
 
     Args:
         number: Tells it from all others of the run.
-        make: What it runs, see `MakeComparison`.
+        make: What it runs, see `MakeComparisons`.
     """
 
-    def __init__(self, number: int, make: MakeComparison) -> None:
+    def __init__(self, number: int, make: MakeComparisons) -> None:
         context = get_context("spawn")
         self.number = number
-        self.connection, theirs = context.Pipe()
-        self._sending = threading.Lock()
+        mine, theirs = context.Pipe()
+        self.wire: Wire | None = Wire(mine)
         self._process: SpawnProcess = context.Process(
             target=work, args=(theirs, make), name=f"adhoc-worker-{number}", daemon=True
         )
@@ -36,15 +36,9 @@ class Worker:
             self._process.start()
         theirs.close()
 
-    def answer(self, number: int, answer: object) -> None:
-        """Answer a question; no use if the worker is dead. Any thread may."""
-        with self._sending:
-            if self.connection.closed:
-                return
-            try:
-                self.connection.send((number, answer))
-            except (BrokenPipeError, ConnectionResetError):
-                return  # it died meanwhile, which `connection` tells its reader
+    def has_ended(self) -> bool:
+        """See `Worker`: its wire is there from the beginning, and tells."""
+        return False
 
     def is_killed(self) -> bool:
         """Whether the process that hung up was killed by a signal. Waits for its end."""
@@ -61,8 +55,8 @@ class Worker:
         """End it without waiting for what it does."""
         self._process.terminate()
         self._end_of_process()
-        with self._sending:
-            self.connection.close()
+        if self.wire is not None:
+            self.wire.close()
 
     def _end_of_process(self) -> int:
         self._process.join(LEAVING_S)

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+import socket
 import threading
 from concurrent.futures import Future
+from contextlib import suppress
 from itertools import count
 from multiprocessing.connection import Connection
 from typing import Any
@@ -26,6 +28,7 @@ class Line:
         self._numbers = count()
         self._waiting: dict[int, Future[Any]] = {}
         self._lock = threading.Lock()
+        self._is_over = False
         threading.Thread(target=self._listen, name="answers", daemon=True).start()
 
     def ask(self, question: object) -> Any:
@@ -43,11 +46,20 @@ class Line:
             raise answer.error()
         return answer
 
+    def hang_up(self) -> None:
+        """Say nothing more. For a process that lives on; the connection must be a socket's."""
+        self._is_over = True
+        with socket.socket(fileno=os.dup(self._connection.fileno())) as end, suppress(OSError):
+            end.shutdown(socket.SHUT_RDWR)  # unlike `close`, wakes the thread that listens
+
     def _listen(self) -> None:
         while True:
             try:
                 number, answer = self._connection.recv()
             except (EOFError, OSError):
+                if self._is_over:
+                    self._connection.close()
+                    return
                 os._exit(ORPHANED)
             with self._lock:
                 answered = self._waiting.pop(number)

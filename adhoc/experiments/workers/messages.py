@@ -13,23 +13,14 @@ from adhoc.core.chat import ChatMessage
 from adhoc.core.errors import AdhocError
 from adhoc.core.replies import Reading
 from adhoc.evaluation.records import Record
+from adhoc.experiments.failures import Failure
 from adhoc.experiments.folder import FolderKey
 from adhoc.llm.model import LMRequest
 
 
 @dataclass(frozen=True)
-class Ready:
-    """A worker has built its world and policies. Answered by None."""
-
-    scenarios: tuple[str, ...]
-    """The ids of all scenarios of the run."""
-    episodes: int
-    """Episodes of each scenario."""
-
-
-@dataclass(frozen=True)
-class NextScenario:
-    """Answered by the position of the scenario to run next, or None if there is nothing left to do."""
+class NextUnit:
+    """Answered by the unit to run next, or None if there is nothing left to do."""
 
 
 @dataclass(frozen=True)
@@ -121,24 +112,17 @@ class AddRecord:
 
 
 @dataclass(frozen=True)
+class AddFailure:
+    """An episode failed. Answered by None when that is on the disk."""
+
+    failure: Failure
+
+
+@dataclass(frozen=True)
 class Started:
-    """See `run.Progress`. Answered by None, and so are the next two."""
+    """See `progress.Progress`. Answered by None."""
 
     episode_id: str
-
-
-@dataclass(frozen=True)
-class Skipped:
-    """See `run.Progress`."""
-
-    record: Record
-
-
-@dataclass(frozen=True)
-class Finished:
-    """See `run.Progress`."""
-
-    record: Record
 
 
 @dataclass(frozen=True)

@@ -2,38 +2,37 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
-from multiprocessing.connection import wait
+from multiprocessing.connection import Connection, wait
 from typing import Any
 
 from adhoc.core.errors import AdhocError, ConfigurationError, WorkerError
-from adhoc.evaluation.records import Record
 from adhoc.experiments.folder import RunFolder
-from adhoc.experiments.run import Progress, RunSummary
+from adhoc.experiments.plan import Plan
+from adhoc.experiments.progress import Progress, RunSummary
+from adhoc.experiments.run import Counted
 from adhoc.experiments.workers.agenda import Agenda
 from adhoc.experiments.workers.calls import CallThreads
-from adhoc.experiments.workers.comparison import MakeComparison
-from adhoc.experiments.workers.crew import Worker
 from adhoc.experiments.workers.messages import (
     AboutModel,
+    AddFailure,
     AddRecord,
     BeginEpisode,
     Complete,
     CountTokens,
     FindRecord,
-    Finished,
     MayGoTogether,
     ModelFacts,
     ModelQuestion,
-    NextScenario,
+    NextUnit,
     Note,
     Raised,
-    Ready,
-    Skipped,
     Started,
 )
+from adhoc.experiments.workers.wire import Wire, Worker
 from adhoc.llm.model import LanguageModel
 from adhoc.llm.together import PATIENCE_S
 
@@ -43,23 +42,28 @@ LOOK_S = 0.5
 """Seconds after which the parent looks for trouble in its own threads, whether or not a worker asks."""
 
 
+Hire = Callable[[int], Worker]
+"""Starts the worker of that number."""
+
+
 def run_in_workers(
-    make: MakeComparison,
+    plan: Plan,
+    hire: Hire,
     make_model: Callable[[], LanguageModel],
     workers: int,
     folder: RunFolder,
     progress: Progress,
     calls: int = 16,
 ) -> RunSummary:
-    """`run_comparison` in several processes; the records are the same, in the order in which they are done.
+    """`run_plan` in several processes; the records are the same, in the order in which they are done.
 
-    Workers take one scenario at a time: its episode of the team alone, then that with the newcomer. Their
-    language model is this process's: a call that was begun is answered, and recorded if the model records,
-    whether or not the worker that asked still lives. A worker that is killed is replaced, and its scenario
-    begun again.
+    Workers take one unit at a time. Their language model is this process's: a call that was begun is
+    answered, and recorded if the model records, whether or not the worker that asked still lives. A worker
+    that is killed is replaced, and its unit begun again.
 
     Args:
-        make: Builds what is compared, in every worker.
+        plan: What to run.
+        hire: Starts a worker that runs `work`.
         make_model: Builds the model that stands behind all workers; called when one asks for it first. The
             model must bear calls from several threads.
         workers: How many processes, at least 1.
@@ -70,11 +74,11 @@ def run_in_workers(
     Raises:
         ConfigurationError: A number is out of range.
         WorkerError: A worker ended by itself, or `DEATHS` of them were killed in one episode.
-        AdhocError: Whatever `run_comparison` raises in a worker; the other workers are stopped.
+        AdhocError: Whatever `run_plan` raises; the other workers are stopped.
     """
     if workers < 1 or calls < 1:
         raise ConfigurationError(f"workers={workers} and calls={calls} must be at least 1")
-    parent = _Parent(make, make_model, workers, folder, progress, calls)
+    parent = _Parent(plan, hire, make_model, workers, folder, progress, calls)
     try:
         parent.run()
     finally:
@@ -87,34 +91,37 @@ class _Parent:
 
     def __init__(
         self,
-        make: MakeComparison,
+        plan: Plan,
+        hire: Hire,
         make_model: Callable[[], LanguageModel],
         workers: int,
         folder: RunFolder,
         progress: Progress,
         calls: int,
     ) -> None:
-        self._make, self._make_model, self._most = make, make_model, workers
-        self._folder, self._progress = folder, progress
-        self._agenda = Agenda(DEATHS)
+        self._hire, self._make_model, self._most = hire, make_model, workers
+        self._folder, self._progress = folder, Counted(plan, progress)
+        self._agenda = Agenda(plan.units, DEATHS)
         self._calls = CallThreads(calls)
         self._model: LanguageModel | None = None
         self._crew: dict[int, Worker] = {}
         self._started = 0
-        self._stored: set[str] = set()
-        self._finished: set[str] = set()
-        self._skipped: set[str] = set()
+        folder.expect(plan.to_run)
 
     @property
     def summary(self) -> RunSummary:
-        return RunSummary(len(self._finished), len(self._skipped))
+        return self._progress.summary
 
     def run(self) -> None:
         self._fill_crew()
         while self._crew:
-            by_connection = {worker.connection: worker for worker in self._crew.values()}
-            for ready in wait(list(by_connection), LOOK_S):
-                self._listen(by_connection[ready])  # type: ignore[index]
+            wired = {it.wire.connection: it for it in self._crew.values() if it.wire is not None}
+            if not wired and self._agenda.is_finished:
+                return  # the others never began, and need not any more
+            for ready in _wait(list(wired)):
+                self._listen(wired[ready])
+            for worker in [it for it in self._crew.values() if it.wire is None and it.has_ended()]:
+                self._bury(worker)
             if not self._calls.failures.empty():
                 raise self._calls.failures.get()
 
@@ -124,22 +131,23 @@ class _Parent:
         self._calls.close(PATIENCE_S)
 
     def _fill_crew(self) -> None:
-        while self._agenda.has_work and len(self._crew) < self._most:
-            self._crew[self._started] = Worker(self._started, self._make)
+        for _ in range(min(self._most - len(self._crew), self._agenda.open_units)):
+            self._crew[self._started] = self._hire(self._started)
             self._started += 1
 
     def _listen(self, worker: Worker) -> None:
-        try:
-            number, question = worker.connection.recv()
-        except (EOFError, OSError):  # OSError: it was killed while it said something long
+        wire = worker.wire
+        asked = None if wire is None else wire.question()
+        if asked is None or wire is None:
             self._bury(worker)
             return
+        number, question = asked
         if isinstance(question, ModelQuestion):
             if self._model is None:
                 self._model = self._make_model()
-            self._calls.make(partial(_ask, self._model, worker, number, question))
+            self._calls.make(partial(_ask, self._model, wire, number, question))
         else:
-            worker.answer(number, self._answer(worker.number, question))
+            wire.answer(number, self._answer(worker.number, question))
 
     def _bury(self, worker: Worker) -> None:
         """The worker is gone: it left, or was killed, or failed."""
@@ -157,50 +165,41 @@ class _Parent:
 
     def _answer(self, worker: int, question: object) -> Any:
         match question:
-            case Ready(scenarios, episodes):
-                if not self._agenda.is_known:
-                    self._agenda.fill(scenarios)
-                    self._progress.begin(len(scenarios) * episodes)
-            case NextScenario():
+            case NextUnit():
                 return self._agenda.next(worker)
             case FindRecord(key):
                 return self._folder.find(key)
             case AddRecord(key, record, True):
                 self._folder.add(key, record)
-                self._stored.add(key.id)
+                self._progress.finished(record)
             case AddRecord(key, record, False):
                 self._folder.add_unfinished(key, record)
+            case AddFailure(failure):
+                self._progress.failed(failure)
+                self._folder.add_failure(failure)
             case Started(episode):
                 self._agenda.note_episode(worker, episode)
                 self._progress.started(episode)
-            case Skipped(record) | Finished(record):
-                self._tell(record)
             case Raised():
                 raise question.error()
             case _:
                 raise TypeError(f"a worker asked {question!r}")
         return None
 
-    def _tell(self, record: Record) -> None:
-        """Once for each episode: a worker that replaces another one finds again what that had found or
-        finished."""
-        episode = record["episode_id"]
-        if episode in self._finished | self._skipped:
-            return
-        if episode in self._stored:
-            self._finished.add(episode)
-            self._progress.finished(record)
-        else:
-            self._skipped.add(episode)
-            self._progress.skipped(record)
+
+def _wait(connections: list[Connection]) -> list[Connection]:
+    """Those on which somebody asks, or hung up, within a moment."""
+    if not connections:
+        time.sleep(LOOK_S)
+    return [it for it in wait(connections, LOOK_S) if isinstance(it, Connection)]
 
 
-def _ask(model: LanguageModel, worker: Worker, number: int, question: ModelQuestion) -> None:
+def _ask(model: LanguageModel, wire: Wire, number: int, question: ModelQuestion) -> None:
     try:
         answer = _answer_of(model, question)
     except AdhocError as error:
         answer = Raised.of(error)
-    worker.answer(number, answer)
+    wire.answer(number, answer)
 
 
 def _answer_of(model: LanguageModel, question: ModelQuestion) -> Any:

@@ -8,20 +8,21 @@ from functools import cached_property
 
 from adhoc.core.chat import ChatMessage
 from adhoc.evaluation.records import Record
+from adhoc.experiments.failures import Failure
 from adhoc.experiments.folder import FolderKey
+from adhoc.experiments.plan import Plan
 from adhoc.experiments.workers.line import Line
 from adhoc.experiments.workers.messages import (
     AboutModel,
+    AddFailure,
     AddRecord,
     BeginEpisode,
     Complete,
     CountTokens,
     FindRecord,
-    Finished,
     MayGoTogether,
     ModelFacts,
     Note,
-    Skipped,
     Started,
     StoredKey,
     portable,
@@ -96,24 +97,26 @@ class RemoteFolder:
         """See `RunFolder`."""
         self.line.ask(AddRecord(StoredKey.of(key), record, finished=False))
 
+    def add_failure(self, failure: Failure) -> None:
+        """See `RunFolder`."""
+        self.line.ask(AddFailure(failure))
+
 
 @dataclass(frozen=True)
 class RemoteProgress:
-    """Tells the parent what happens to episodes; see `run.Progress`."""
+    """Tells the parent what happens to episodes; see `progress.Progress`."""
 
     line: Line
 
-    def begin(self, episodes: int) -> None:
-        """Says nothing: the parent knows how many there are in all."""
-
-    def skipped(self, record: Record) -> None:
-        """See `run.Progress`."""
-        self.line.ask(Skipped(record))
+    def begin(self, plan: Plan) -> None:
+        """Says nothing: the parent made the plan."""
 
     def started(self, episode_id: str) -> None:
-        """See `run.Progress`."""
+        """See `progress.Progress`."""
         self.line.ask(Started(episode_id))
 
     def finished(self, record: Record) -> None:
-        """See `run.Progress`."""
-        self.line.ask(Finished(record))
+        """Says nothing: the parent is told when the record is stored."""
+
+    def failed(self, failure: Failure) -> None:
+        """Says nothing: the parent is told when the failure is stored."""

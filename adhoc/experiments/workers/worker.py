@@ -1,4 +1,4 @@
-"""The life of a worker process: build everything once, then run one scenario after the other."""
+"""The life of a worker process: run one unit after the other, and build what they need."""
 
 from __future__ import annotations
 
@@ -6,34 +6,34 @@ from functools import partial
 from multiprocessing.connection import Connection
 
 from adhoc.core.errors import AdhocError
-from adhoc.evaluation.lazy_scenarios import scenario_ids
-from adhoc.experiments.run import check_ids
-from adhoc.experiments.workers.comparison import Comparison, MakeComparison
+from adhoc.experiments.comparison import Comparisons, MakeComparisons
+from adhoc.experiments.scenario_run import run_scenario
 from adhoc.experiments.workers.line import Line
-from adhoc.experiments.workers.messages import NextScenario, Raised, Ready
+from adhoc.experiments.workers.messages import NextUnit, Raised
 from adhoc.experiments.workers.remote import RemoteFolder, RemoteModel, RemoteProgress
 
 
-def work(connection: Connection, make: MakeComparison) -> None:
-    """Run the scenarios that the parent names, until it names none.
+def work(connection: Connection, make: MakeComparisons) -> None:
+    """Run the units that the parent names, until it names none.
 
     An AdhocError is told to the parent and ends the worker; anything else ends it with a trace.
     """
-    line = Line(connection)
+    serve(Line(connection), make)
+
+
+def serve(line: Line, make: MakeComparisons) -> None:
+    """The same over a line that is there already."""
     try:
-        comparison = make(RemoteModel(line))
+        comparisons = make(RemoteModel(line))
         try:
-            _run_scenarios(comparison, line)
+            _run_units(comparisons, line)
         finally:
-            comparison.world.close()
+            comparisons.close()
     except AdhocError as error:
         line.ask(Raised.of(error))
 
 
-def _run_scenarios(comparison: Comparison, line: Line) -> None:
-    ids = tuple(scenario_ids(comparison.scenarios))
-    check_ids(ids)
-    line.ask(Ready(ids, comparison.episodes))
+def _run_units(comparisons: Comparisons, line: Line) -> None:
     folder, progress = RemoteFolder(line), RemoteProgress(line)
-    for position in iter(partial(line.ask, NextScenario()), None):
-        comparison.run(folder, progress, position)
+    for unit in iter(partial(line.ask, NextUnit()), None):
+        run_scenario(comparisons[unit.comparison], unit.position, folder, progress)

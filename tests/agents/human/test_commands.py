@@ -162,17 +162,19 @@ def test_a_robot_that_cannot_move_is_not_asked_to():
         reader(Capability(can_navigate=False)).read("w")
 
 
-class Going(TidyingUp):
-    sub_skills = (CallSpec("Go", (), ""), CallSpec("GoBack", (), ""))
+class Coming(TidyingUp):
+    sub_skills = (CallSpec("Come", (), ""), CallSpec("ComeBack", (), ""))
 
 
 def test_a_name_stands_for_itself_and_a_beginning_must_fit_one_alone():
-    memory = Memory("robot", Going())
-    going = CommandReader(Going(), Capability(), Names(memory, ShortNumbers()))
-    assert going.read("GO") == DoSkill(Call("Go"))
-    assert going.read("gob") == DoSkill(Call("GoBack"))
-    with pytest.raises(CommandError, match="`g` could be Go or GoBack"):
-        going.read("g")
+    memory = Memory("robot", Coming())
+    coming = CommandReader(Coming(), Capability(), Names(memory, ShortNumbers()))
+    assert coming.read("COME") == DoSkill(Call("Come"))
+    assert coming.read("comeb") == DoSkill(Call("ComeBack"))
+    with pytest.raises(CommandError, match="`co` could be Come or ComeBack"):
+        coming.read("co")
+    with pytest.raises(CommandError, match="`c` is no command"):
+        coming.read("c")
 
 
 def test_ids_that_differ_in_case_alone_must_be_spelt():

@@ -1,0 +1,1 @@
+"""Records as flat tables for other programs: CSV and Parquet."""

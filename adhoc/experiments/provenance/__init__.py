@@ -1,0 +1,1 @@
+"""What decided a run, written beside its records: configuration, code, data, machine, models with dates."""

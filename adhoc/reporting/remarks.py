@@ -1,0 +1,150 @@
+"""What a reader must know of a table: how it was made, and what is not as it should be."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from adhoc.evaluation.llm_field import JUDGED
+from adhoc.evaluation.records import Record
+from adhoc.reporting.pairing import Contestant, Pair, PairKey, Team, contestant, team_of
+
+MUCH = 0.05
+"""From this share of unusable replies or safe choices on, a row says more of them than of its policy."""
+
+
+@dataclass(frozen=True)
+class Names:
+    """What teams and rows are called."""
+
+    teams: Mapping[Team, str]
+    rows: Mapping[Contestant, str]
+
+    def row(self, record: Record) -> str:
+        """Whose episode it is, said without the table around it."""
+        team = self.teams[team_of(record)]
+        if record["join_step"] is None:
+            return f"{team} alone"
+        name = self.rows[contestant(record)]
+        return name if len(self.teams) == 1 else f"{name} beside {team}"
+
+
+@dataclass(frozen=True)
+class Remarks:
+    """What is said below the tables."""
+
+    notes: tuple[str, ...]
+    """How the numbers were made, and where models were now and then not understood."""
+    warnings: tuple[str, ...]
+    """Mixtures, rows over different tasks, and models that were often not understood."""
+
+
+def remarks(
+    records: Sequence[Record], alone: Mapping[PairKey, Record], paired: Sequence[Pair], names: Names
+) -> Remarks:
+    """All remarks on records, of which those of the teams alone and those of pairs are shown."""
+    shown = [*alone.values(), *(pair.joined for pair in paired)]
+    told = list(_understanding(shown, names))
+    return Remarks(
+        (*_notes(records, paired), *(it for it, is_much in told if not is_much)),
+        (
+            *_versions(shown),
+            *_task_versions(shown),
+            *_uneven(paired, names),
+            *(it for it, is_much in told if is_much),
+        ),
+    )
+
+
+def _notes(records: Sequence[Record], paired: Sequence[Pair]) -> Iterator[str]:
+    joined = sum(record["join_step"] is not None for record in records)
+    houses = len({record["house_id"] for record in records})
+    scenarios = len({(record["task_id"], record["scenario_hash"]) for record in records})
+    steps = " or ".join(map(str, sorted({record["max_steps"] for record in records})))
+    yield f"scenarios: {scenarios}; houses: {houses}; steps: at most {steps}"
+    yield f"{len(paired)} paired episodes, N in a row"
+    yield "in brackets: percent better than the team alone in the same scenarios"
+    if joined > len(paired):
+        yield f"{joined - len(paired)} episodes left out: their team-alone episode is missing"
+    never = sum(not pair.joined["joined"] for pair in paired)
+    if never:
+        yield f"{never} of them ended before the newcomer would have joined"
+
+
+def _versions(records: Iterable[Record]) -> Iterator[str]:
+    counts = Counter(str(record["library_version"]) for record in records)
+    if len(counts) > 1:
+        told = ", ".join(f"{version} ({count} episodes)" for version, count in sorted(counts.items()))
+        yield f"made by several versions of the library, which may differ in what they do: {told}"
+
+
+def _task_versions(records: Iterable[Record]) -> Iterator[str]:
+    hashes: dict[str, set[str]] = {}
+    for record in records:
+        hashes.setdefault(record["task_id"], set()).add(record["scenario_hash"])
+    several = sorted(task for task, found in hashes.items() if len(found) > 1)
+    if several:
+        yield (
+            f"{len(several)} tasks are there in several versions (house, objects or robots differ), each "
+            f"counted as a task of its own: {', '.join(several[:3])}{', ...' if len(several) > 3 else ''}"
+        )
+
+
+def _uneven(paired: Iterable[Pair], names: Names) -> Iterator[str]:
+    """Rows that are not over the scenarios of the others of their team and joining step."""
+    counts: dict[tuple[int, Team], Counter[Contestant]] = {}
+    scenarios: dict[tuple[int, Team], set[int]] = {}
+    for pair in paired:
+        who = contestant(pair.joined)
+        block = (pair.joined["join_step"], who.team)
+        counts.setdefault(block, Counter())[who] += 1
+        scenarios.setdefault(block, set()).add(id(pair.alone))
+    for (step, team), found in sorted(counts.items(), key=lambda it: (it[0][0], it[0][1].name)):
+        total = len(scenarios[step, team])
+        fewer = [f"{names.rows[who]} {count}" for who, count in found.items() if count < total]
+        if fewer:
+            yield (
+                f"{names.teams[team]}, joining at step {step}: rows are not over the same {total} "
+                "scenarios, so compare them with the team alone and not with each other "
+                f"({', '.join(sorted(fewer))})"
+            )
+
+
+def _understanding(records: Iterable[Record], names: Names) -> Iterator[tuple[str, bool]]:
+    """One line for each row's name in whose episodes a model was not understood or a planner gave up, and
+    whether that was in at least `MUCH` of the questions or decisions.
+
+    Of a team alone it is the team's own models and planners, which its rows with a newcomer count too.
+    """
+    by_name: dict[tuple[Contestant, bool], list[Record]] = {}
+    for record in records:
+        by_name.setdefault((contestant(record), record["join_step"] is None), []).append(record)
+    for mine in by_name.values():
+        invalid, repaired = total(mine, "llm", "invalid"), total(mine, "llm", "repaired")
+        counts = "team_planning" if mine[0]["join_step"] is None else "planning"
+        decisions, fallbacks = total(mine, counts, "sub_tasks"), total(mine, counts, "fallbacks")
+        asked = (questions(mine) or total(mine, "llm", "calls")) if invalid or repaired else 0
+        parts = [f"{invalid} of {asked} questions to the model got no usable reply"] if invalid else []
+        parts += [f"{repaired} of {asked} only when asked again"] if repaired else []
+        parts += [f"{fallbacks} of {decisions} decisions fell back to the safe choice"] if fallbacks else []
+        if parts:
+            is_much = max(invalid, repaired) >= MUCH * asked > 0 or fallbacks >= MUCH * decisions > 0
+            yield f"{names.row(mine[0])}: {'; '.join(parts)}", is_much
+
+
+def questions(records: Iterable[Record]) -> int:
+    """How many questions the models were asked; one that was asked again after a bad reply counts once.
+
+    Records of other versions may not tell.
+    """
+    outcomes = [record.get("llm", _NOTHING).get("outcomes") for record in records]
+    return sum(counts.get(outcome, 0) for counts in outcomes if counts for outcome in JUDGED)
+
+
+def total(records: Iterable[Record], field: str, count: str) -> int:
+    """The sum of a count over records; those of other versions may lack it."""
+    return sum([record.get(field, _NOTHING).get(count, 0) for record in records])
+
+
+_NOTHING: Mapping[str, int] = {}

@@ -1,0 +1,75 @@
+"""Who succeeded in which scenario: what comparisons on the same scenarios are made from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from adhoc.evaluation.records import Record
+from adhoc.reporting.pairing import (
+    Contestant,
+    Pair,
+    Team,
+    check_settings,
+    contestant,
+    labels,
+    pairs,
+    team_names,
+)
+from adhoc.statistics.intervals import FloatArray
+
+
+@dataclass(frozen=True)
+class Scoreboard:
+    """One team and one joining step: the success (1 or 0) of all in S scenarios."""
+
+    team: str
+    join_step: int
+    houses: NDArray[np.str_]
+    """(S,) the house of each scenario."""
+    alone: FloatArray
+    """(S,) of the team alone."""
+    policies: Mapping[str, FloatArray]
+    """(S,) of each policy, the most successful first; NaN where it has no episode."""
+
+
+def scoreboards(records: Sequence[Record]) -> list[Scoreboard]:
+    """All that the records tell, by joining step and team in the order of the records; episodes without their
+    team-alone episode are left out.
+
+    Raises RecordError for records that do not belong together (see `reporting.pairing`).
+    """
+    check_settings(records)
+    groups: dict[tuple[int, Team], dict[Contestant, dict[int, Pair]]] = {}
+    shown: dict[Contestant, Record] = {}
+    for pair in pairs(records):
+        who = contestant(pair.joined)
+        shown.setdefault(who, pair.joined)
+        group = groups.setdefault((pair.joined["join_step"], who.team), {})
+        # Pairs of one scenario share the episode of the team alone.
+        group.setdefault(who, {})[id(pair.alone)] = pair
+    names, teams = labels(shown.values()), team_names(records)
+    return [
+        _scoreboard(teams[team], join_step, {names[who]: it for who, it in groups[join_step, team].items()})
+        for join_step, team in sorted(groups, key=lambda key: key[0])
+    ]
+
+
+def _scoreboard(team: str, join_step: int, policies: Mapping[str, Mapping[int, Pair]]) -> Scoreboard:
+    scenarios = {key: pair.alone for mine in policies.values() for key, pair in mine.items()}
+    places = {key: place for place, key in enumerate(scenarios)}
+    outcomes = {name: np.full(len(scenarios), np.nan) for name in policies}
+    for name, mine in policies.items():
+        for key, pair in mine.items():
+            outcomes[name][places[key]] = pair.joined["success"]
+    order = sorted(outcomes, key=lambda name: -float(np.nanmean(outcomes[name])))
+    return Scoreboard(
+        team,
+        join_step,
+        np.array([alone["house_id"] for alone in scenarios.values()]),
+        np.array([alone["success"] for alone in scenarios.values()], dtype=np.float64),
+        {name: outcomes[name] for name in order},
+    )

@@ -1,0 +1,59 @@
+"""The page in a real browser: it loads, plays, and complains about nothing."""
+
+from __future__ import annotations
+
+import pytest
+from browser import dom_of, find_browser, self_test
+from watched_grid import HOSTILE, watched
+
+from adhoc.inspecting.page import write_page
+
+
+@pytest.fixture(scope="module")
+def told(tmp_path_factory):
+    find_browser()
+    folder = tmp_path_factory.mktemp("page")
+    write_page([watched(None, HOSTILE), watched(3, HOSTILE)], folder / "page.html")
+    return self_test(folder / "page.html", folder / "profile")
+
+
+def test_it_loads_without_a_complaint(told):
+    assert told["troubles"] == []
+    assert (told["episodes"], told["steps"]) == (2, 12)
+
+
+def test_the_slider_moves_the_picture_and_back(told):
+    assert told["sliderMoves"]
+    assert told["back"]
+
+
+def test_it_plays_and_obeys_the_keyboard(told):
+    assert told["played"] >= 1
+    assert told["keyboard"]
+
+
+def test_messages_decisions_prompts_and_pictures_are_shown(told):
+    assert told["messages"] > 10
+    assert told["decisions"] == 3
+    assert told["prompts"] >= 6
+    assert told["pictures"] == 3
+    assert all(letters > 20 for letters in told["panels"].values()), told["panels"]
+
+
+def test_hostile_text_stays_text(told):
+    assert told["foreign"] == 0
+    assert told["scripts"] == 2
+    assert told["title"] == "two_rooms-s0--walkers--alone"
+
+
+def test_nothing_is_cut_off_at_the_side(told):
+    assert told["wide"] is False
+
+
+def test_a_page_that_is_damaged_says_so(tmp_path):
+    page = tmp_path / "page.html"
+    write_page([watched(None)], page)
+    text = page.read_text(encoding="utf-8")
+    start = text.index('type="text/plain">') + len('type="text/plain">')
+    page.write_text(text[:start] + "eJz" + text[start + 40 :], encoding="utf-8")
+    assert "The page could not be shown" in dom_of(page, tmp_path / "profile").split("<script")[0]
