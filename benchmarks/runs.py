@@ -5,7 +5,7 @@
 The team alone and IRoT in so many tasks of the paper's benchmark (250 by default: 500 episodes), once in
 one worker process and once in two, on the same machine in one go. Orchestration is the time of the one worker
 in which no episode is run, from the first episode to the last, as a share of the whole; memory is that of the
-one worker after its first 20 episodes and after its last.
+largest worker after 100 episodes of each and after the last.
 """
 
 from __future__ import annotations
@@ -24,8 +24,10 @@ from rich.table import Table
 from adhoc.evaluation.records import FILE_NAME, RecordFile
 
 RUN = ("policy=irot", "team=heuristic", "benchmark=paper", "pictures=false", "transcript=false")
-WARM = 20
-"""Episodes after which a worker has loaded and compiled everything."""
+WARM = 100
+"""Episodes of each worker after which it has loaded and compiled everything, and met large houses."""
+ALIVE_MB = 100.0
+"""A process with less memory is no worker, or is ending."""
 LOOK_S = 0.5
 
 
@@ -61,9 +63,10 @@ def measure(workers: int, scenarios: int, folder: Path) -> Measured:
         if lines > done:
             now = time.perf_counter()
             first, last = (now if not done else first), now
-            if done < WARM <= lines:
+            if done < WARM * workers <= lines:
                 warm = _largest_worker(process.pid)
-            full = _largest_worker(process.pid) or full
+            now_full = _largest_worker(process.pid)
+            full = now_full if now_full > ALIVE_MB else full
             done = lines
         time.sleep(LOOK_S)
     if process.returncode:
@@ -107,7 +110,7 @@ def main() -> None:
         "episodes/s",
         "in episodes",
         "beside them",
-        "memory after 20",
+        "memory warm",
         "at the end",
         "whole",
     ):

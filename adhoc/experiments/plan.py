@@ -12,6 +12,7 @@ from adhoc.core.streams import stream
 from adhoc.evaluation.episode_key import EpisodeKey, EpisodeKind
 from adhoc.evaluation.lazy_scenarios import scenario_ids
 from adhoc.evaluation.records import Record
+from adhoc.evaluation.settings_files import differing
 from adhoc.experiments.comparison import Comparison
 from adhoc.experiments.folder import RunFolder
 
@@ -101,7 +102,8 @@ def make_plan(
     success mislead less. The order depends on `seed` and the number of units alone; a shard takes every n-th.
 
     Raises:
-        ConfigurationError: No scenarios, or two of one id.
+        ConfigurationError: No scenarios, two of one id, one policy with two configurations, or an episode
+            that two comparisons would both run.
         RecordError: The folder holds episodes of another configuration, or of another version of a scenario.
     """
     units = [
@@ -112,6 +114,8 @@ def make_plan(
     names = [scenario_ids(comparison.scenarios) for comparison in comparisons]
     for ids in names:
         check_ids(ids)
+    _check_kinds(comparisons)
+    units = _without_repeated(units, comparisons, names)
     order = stream(seed, "plan").permutation(len(units))
     part = shard or Shard()
     mine = [units[place] for place in order[part.number - 1 :: part.count]]
@@ -130,6 +134,40 @@ def make_plan(
     return Plan(
         tuple(open_units), scenarios, count.recorded, count.missing, tuple(sorted(count.models)), count.usd
     )
+
+
+def _check_kinds(comparisons: Sequence[Comparison]) -> None:
+    """What one run folder would refuse later: see `RunFolder.recorded`."""
+    first: dict[tuple[str, str, str | None], EpisodeKind] = {}
+    for kind in (kind for comparison in comparisons for kind in comparison.kinds):
+        other = first.setdefault(kind.group, kind)
+        if other.config_hash != kind.config_hash:
+            changes = differing(other.settings, kind.settings, "in one", "in the other")
+            raise ConfigurationError(
+                f"team={kind.group[0]} policy={kind.group[1]} is to be run with two configurations in one "
+                f"folder ({changes}); give them names of their own (policy.name=...) or folders "
+                "(out=...)"
+            )
+
+
+def _without_repeated(
+    units: Sequence[Unit], comparisons: Sequence[Comparison], names: Sequence[Sequence[str]]
+) -> list[Unit]:
+    """The units without those whose episodes are all in others, as in a sweep over `limit`."""
+    planned: set[str] = set()
+    kept = []
+    for unit in units:
+        kinds = comparisons[unit.comparison].kinds
+        ids = [kind.id_in(names[unit.comparison][unit.position]) for kind in kinds]
+        repeated = [name for name in ids if name in planned]
+        if not repeated:
+            kept.append(unit)
+        elif len(repeated) < len(ids):
+            raise ConfigurationError(
+                f"episode {repeated[0]!r} is in two parts of this sweep; run them one after the other"
+            )
+        planned.update(ids)
+    return kept
 
 
 class _Count:

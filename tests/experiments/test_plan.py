@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from grid_world import GridWorld, scenario
-from test_run import HELPER, IDLER, SCENARIOS, conditions
+from test_run import HELPER, IDLER, SCENARIOS, TEAM, conditions
 
 from adhoc.core.errors import ConfigurationError, RecordError
 from adhoc.evaluation.lazy_scenarios import LazyScenarios
@@ -16,6 +16,7 @@ from adhoc.experiments.run import run_comparison, run_plan
 from adhoc.llm.counting import CountingModel
 from adhoc.llm.scripted import ScriptedModel
 
+SPRINTERS = replace(TEAM, name="sprinters")
 MANY = [scenario(id=f"two_rooms-s{seed}", seed=seed) for seed in range(12)]
 
 
@@ -28,7 +29,7 @@ def plan_of(folder, *comparisons, **options):
 
 
 def test_every_scenario_of_every_comparison_is_a_unit(tmp_path):
-    plan = plan_of(tmp_path, comparison(Entrant(HELPER, 5)), comparison(max_steps=20))
+    plan = plan_of(tmp_path, comparison(Entrant(HELPER, 5)), comparison(team=SPRINTERS))
     assert sorted(plan.units, key=vars_of) == [Unit(0, 0), Unit(0, 1), Unit(1, 0), Unit(1, 1)]
     assert (plan.missing, plan.done, plan.to_run) == ({"No ad hoc": 4, "Helper": 2}, 0, 6)
 
@@ -136,3 +137,24 @@ def test_the_cost_of_what_is_missing_goes_by_what_is_recorded(tmp_path):
     fresh = plan_of(tmp_path / "fresh", comparison(Entrant(asking, 5)))
     assert (fresh.models, fresh.usd) == (("tiny",), None)
     assert plan_of(tmp_path, comparison(scenarios=MANY[:5])).models == ()
+
+
+def test_a_sweep_over_the_number_of_scenarios_runs_each_once(tmp_path):
+    few, all_of_them = comparison(scenarios=MANY[:2]), comparison(scenarios=MANY[:5])
+    plan = plan_of(tmp_path, few, all_of_them)
+    assert (plan.to_run, plan.scenarios) == (5, 5)
+
+
+def test_an_episode_that_two_parts_of_a_sweep_share_is_refused(tmp_path):
+    """Each of two workers would run the team alone."""
+    one, two = comparison(Entrant(HELPER, 5)), comparison(Entrant(IDLER, 5))
+    with pytest.raises(ConfigurationError, match="'two_rooms-s0--walkers--alone' is in two parts"):
+        plan_of(tmp_path, one, two)
+
+
+def test_two_configurations_of_one_name_are_refused_before_anything_is_run(tmp_path):
+    other = replace(HELPER, settings={"name": "helper", "n": 5})
+    with pytest.raises(ConfigurationError, match=r"policy=helper.*n: None in one, 5 in the other"):
+        plan_of(tmp_path, comparison(Entrant(HELPER, 5), Entrant(other, 6)))
+    with pytest.raises(ConfigurationError, match=r"max_steps: 30 in one, 20 in the other"):
+        plan_of(tmp_path, comparison(), comparison(max_steps=20))
