@@ -8,7 +8,7 @@ export NUMBA_CACHE_DIR := $(CURDIR)/.venv/numba-cache
 .PHONY: demo tables sensitivity test test-slow stress check format bench clean
 
 demo: .venv/installed
-	$(BIN)/adhoc run -m policy=none,heuristic,irot join_step=0,50 benchmark=demo out=demo
+	$(BIN)/adhoc run -m policy=none,idle,heuristic,irot join_step=0,50 benchmark=demo out=demo
 	$(BIN)/adhoc report demo --markdown demo/table.md --html demo/report.html
 	$(BIN)/adhoc inspect demo corridor-s0--heuristic--irot-offline--t50 --out demo/episode.html
 

@@ -87,6 +87,7 @@ _HOMES = {
     "adhoc.agents.dialects.speaking": ("Speaking",),
     "adhoc.agents.heuristic": ("HeuristicPolicy",),
     "adhoc.agents.human.policy": ("HumanPolicy",),
+    "adhoc.agents.idle": ("IdlePolicy",),
     "adhoc.agents.llm_agent": ("LLMAgent",),
     "adhoc.agents.llm_teammate": ("LLMTeammate",),
     "adhoc.agents.policy": ("Policy", "Turn"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from adhoc import (
     HeuristicPolicy,
+    IdlePolicy,
     LLMAgent,
     LLMEvaluator,
     LLMGenerator,
@@ -29,6 +30,10 @@ def irot() -> LLMAgent:
 def llm_teammate() -> LLMTeammate:
     model = OfflineReasoner(placement_table())
     return LLMTeammate(LLMNegotiator(model, legal=TidyingUp().legal), LLMSubSkillPlanner(model))
+
+
+class TestIdlePolicy(PolicyContract):
+    make = IdlePolicy
 
 
 class TestRandomPolicy(PolicyContract):
