@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 from omegaconf import DictConfig
@@ -12,18 +13,35 @@ from adhoc.cli.model_chain import check_values
 from adhoc.cli.person import asks_person
 from adhoc.cli.shards import shard_of
 from adhoc.core.errors import ConfigurationError
+from adhoc.evaluation.contender import NO_AD_HOC
 from adhoc.experiments.failures import Tolerance
+
+_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9._+ -]*")
 
 
 def check_config(config: DictConfig) -> None:
     """Raise ConfigurationError for a value that does not fit, or a run folder that cannot be written."""
     _check_numbers(config)
+    _check_names(config)
     Tolerance(config.fail_on_error)
     shard_of(config)
     executor_of(config)
     asks_person(config)
     if not config.dry_run:
         _check_out(config.out)
+
+
+def _check_names(config: DictConfig) -> None:
+    """Names tell episodes apart and become file names; labels may be anything."""
+    for group in ("policy", "team"):
+        name = config[group].get("name")
+        if not isinstance(name, str) or not _NAME.fullmatch(name):
+            raise ConfigurationError(
+                f"{group}.name={name}: must begin with an ASCII letter or digit and go on with these, "
+                f"spaces, '.', '_', '-' or '+'; {group}.label may be anything"
+            )
+    if config.policy.name == NO_AD_HOC and "agent" in config.policy:
+        raise ConfigurationError(f"policy.name={NO_AD_HOC}: is the name of no policy; use another one")
 
 
 def _check_numbers(config: DictConfig) -> None:

@@ -4,85 +4,85 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from omegaconf import DictConfig, OmegaConf
 from rich import box
+from rich.console import Console
 from rich.table import Table
 
-from adhoc.cli.contestants import Components
-from adhoc.cli.model_chain import caps_of, price_of, provider_model
+from adhoc.cli.dry_sample import Estimate, Sample, sample_run
+from adhoc.cli.model_chain import caps_of, price_of
 from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError, MissingDependency
 from adhoc.core.resources import data_dir
-from adhoc.evaluation.records import Record, RecordFile
-from adhoc.experiments.comparison import Comparison, Entrant
-from adhoc.experiments.console_progress import ConsoleProgress
-from adhoc.experiments.estimate import Spread, spread_evenly, spread_of
-from adhoc.experiments.folder import RunFolder
-from adhoc.experiments.run import run_comparison
-from adhoc.llm.model import LMRequest, LMResponse, Wrapper
+from adhoc.evaluation.records import Record
+from adhoc.experiments.estimate import spread_of
 from adhoc.llm.prices import Price
 from adhoc.reporting.cost_table import ALL_STAGES, Use, dollars, stage_rows
 
-SCENARIOS = 4
-"""So many scenarios are run."""
 COLUMNS = ("of a scenario", "calls", "tokens in", "tokens out", "USD")
+SWEEP_COLUMNS = ("of the whole sweep", "joins at", "episodes", *COLUMNS[1:])
 
 
-def dry_run(config: DictConfig) -> None:
+def dry_runs(runs: Sequence[Sequence[DictConfig]]) -> None:
+    """Print what each run would ask of its model, and in the end what all of them would.
+
+    Args:
+        runs: The configurations of each; those of one agree in what a run has once, such as the model.
+
+    Raises:
+        AdhocError: whatever does not fit, as the run would.
+    """
+    found = [dry_run(configs) for configs in runs]
+    if len(found) > 1:
+        whole = sum(found, Estimate())
+        _say(table_console(), f"All {len(found)} runs: {whole.episodes:,} episodes, {_told(whole.use.mean)}.")
+
+
+def dry_run(configs: Sequence[DictConfig]) -> Estimate:
     """Run a few scenarios with the offline reasoner and print what that says about the whole run.
 
-    The run folder is not touched, and no other model is asked. Caps of an episode hold, those of the run are
-    compared with the estimate. Raises ConfigurationError for whatever does not fit, as the run would.
+    Configurations that differ in policy and joining step alone share the episodes of the team alone, as they
+    do in the run. The run folder is not touched, and no other model is asked. Caps of an episode hold, those
+    of the run are compared with the estimate. Raises AdhocError for whatever does not fit, as the run would.
     """
-    llm = _plain(config.llm)
+    llm = _plain(configs[0].llm)
     price, model = _price(llm), str(llm.get("model") or llm.get("name"))
-    offline = _offline(config, price)
-    longest = _LongestReplies(provider_model(offline, _plain(offline.llm)))
-    components = Components(offline, longest)
-    conditions, newcomer = components.conditions, components.newcomer
     console = table_console()
-    if not any((conditions.model, conditions.team.model, newcomer and newcomer.model)):
-        console.print(f"Dry run: {config.policy.label}: no language model is asked.")
-        return
-    if OmegaConf.is_missing(config.llm, "model"):
+    samples = sample_run([_offline(config, price) for config in configs], console)
+    whole = sum((it.whole for it in samples), Estimate())
+    asked = [it for it in samples if it.records]
+    if not asked:
+        labels = ", ".join(dict.fromkeys(config.policy.label for config in configs))
+        _say(console, f"Dry run: {labels}: no language model is asked.")
+        return whole
+    if OmegaConf.is_missing(configs[0].llm, "model"):
         raise ConfigurationError("llm.model=...: must be given")
-    world = components.world
-    try:
-        scenarios = components.benchmark.scenarios(world, config.seed, config.limit)
-        chosen = [scenarios[position] for position in spread_evenly(len(scenarios), SCENARIOS)]
-        with TemporaryDirectory(prefix="adhoc-dry-run-") as folder, ConsoleProgress(console) as progress:
-            entrants = () if newcomer is None else (Entrant(newcomer, config.join_step),)
-            run_comparison(Comparison(world, chosen, conditions, entrants), RunFolder(folder), progress)
-            records = RecordFile(folder).read()
-    finally:
-        world.close()
-    console.print(f"Dry run: {config.policy.label} with {model}, joining at step {config.join_step}")
-    console.print(estimate_table(records))
-    whole, ran = spread_of(records).times(len(scenarios)), len(chosen)
-    reply_tokens = longest.tokens * len(scenarios) / ran
+    if len(configs) == 1:
+        name, what = "run", f"{configs[0].policy.label} with {model}, joining at step {configs[0].join_step}"
+        table = estimate_table(samples[0].records)
+    else:
+        name, what, table = "sweep", f"{len(configs)} configurations with {model}", sweep_table(samples)
+    _say(console, f"Dry run: {what}")
+    console.print(table)
     for line in (
-        _whole_run(whole, len(scenarios)),
-        *_at_most(whole.mean, reply_tokens, price),
+        f"The whole {name}: {whole.episodes:,} episodes, {_told(whole.use.mean)}. If all scenarios were like "
+        f"the cheapest: {_told(whole.use.least)}; like the dearest: {_told(whole.use.most)}.",
+        *_at_most(whole.use.mean, sum(it.reply_tokens for it in samples), price),
         _priced(price, model),
-        f"Counted with the offline reasoner (not a language model) in {ran} of {len(scenarios)} scenarios. "
-        "Prompts are those that the model would get, but a real model decides otherwise, says more in a "
-        "reply, and pays for repairs: take it as an order of magnitude.",
-        *_caps(config, whole.mean),
+        f"Counted with the offline reasoner (not a language model) in {sum(it.ran for it in asked)} of "
+        f"{sum(it.scenarios for it in asked)} scenarios. Prompts are those that the model would get, but a "
+        "real model decides otherwise, says more in a reply, and pays for repairs: take it as an order of "
+        "magnitude.",
+        *_caps(configs[0], whole.use.mean),
     ):
-        console.print(line, markup=False, highlight=False, soft_wrap=True)
+        _say(console, line)
+    return whole
 
 
-class _LongestReplies(Wrapper):
-    """Adds up how long replies might be."""
-
-    tokens = 0
-
-    def complete(self, request: LMRequest) -> LMResponse:
-        self.tokens += request.max_tokens
-        return self._inner.complete(request)
+def _say(console: Console, line: str) -> None:
+    console.print(line, markup=False, highlight=False, soft_wrap=True)
 
 
 def estimate_table(records: Sequence[Record]) -> Table:
@@ -102,11 +102,17 @@ def estimate_table(records: Sequence[Record]) -> Table:
     return table
 
 
-def _whole_run(whole: Spread, scenarios: int) -> str:
-    return (
-        f"The whole run, {scenarios} scenarios: {_told(whole.mean)}. If all were like the cheapest: "
-        f"{_told(whole.least)}; like the dearest: {_told(whole.most)}."
-    )
+def sweep_table(samples: Sequence[Sample]) -> Table:
+    """What a whole sweep takes, one row for each policy and joining step, below that of its team alone."""
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    for column in SWEEP_COLUMNS:
+        table.add_column(column, justify="left" if column == SWEEP_COLUMNS[0] else "right")
+    for sample in samples:
+        for row in sample.rows:
+            step = "-" if row.join_step is None else str(row.join_step)
+            table.add_row(row.label, step, f"{row.episodes:,}", *_cells(row.use, digits=0))
+        table.add_section()
+    return table
 
 
 def _at_most(mean: Use, reply_tokens: float, price: Price | None) -> Iterator[str]:
@@ -172,9 +178,9 @@ def _plain(llm: Any) -> dict[str, Any]:
     return {str(name): value for name, value in plain.items()} if isinstance(plain, dict) else {}
 
 
-def _cells(use: Use) -> list[str]:
+def _cells(use: Use, digits: int = 1) -> list[str]:
     return [
-        f"{use.calls:,.1f}",
+        f"{use.calls:,.{digits}f}",
         f"{use.prompt_tokens:,.0f}",
         f"{use.completion_tokens:,.0f}",
         dollars(use.cost_usd),

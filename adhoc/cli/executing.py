@@ -76,13 +76,16 @@ def execute(
         try:
             plan = make_plan(comparisons, folder, first.seed, shard)
             if executor is Executor.SERIAL:
-                return run_plan(plan, comparisons, folder, progress)
+                summary = run_plan(plan, comparisons, folder, progress)
         finally:
             comparisons.close()
-        make = partial(make_comparisons, sessions.configs, sessions.runs, _is_free(first))
-        calls = first.rate.concurrent + CALLS_OF_A_WORKER * first.workers
-        with _crew(executor, first, make) as hire:
-            return run_in_workers(plan, hire, provider, first.workers, folder, progress, calls)
+        if executor is not Executor.SERIAL:
+            make = partial(make_comparisons, sessions.configs, sessions.runs, _is_free(first))
+            calls = first.rate.concurrent + CALLS_OF_A_WORKER * first.workers
+            with _crew(executor, first, make) as hire:
+                summary = run_in_workers(plan, hire, provider, first.workers, folder, progress, calls)
+        sessions.complete = not summary.failed
+    return summary
 
 
 @contextmanager

@@ -28,6 +28,7 @@ from adhoc.core.resources import data_dir
 
 SWEEP = ("-m", "--multirun")
 HERE = "hydra._internal.core_plugins.basic_launcher.BasicLauncher"
+OWN_FOLDERS = ("hydra/launcher=", "hydra.run.dir=", "hydra.sweep.dir=")
 SWEPT = (*GROUPS, "join_step", "seed", "max_steps")
 """Keys whose values are no lists, and that people sweep."""
 
@@ -65,7 +66,7 @@ def run_with_hydra(arguments: Sequence[str]) -> int:
         return 0
 
     decorated = hydra.main(version_base="1.3", config_path=str(data_dir("configs")), config_name="run")(job)
-    with _elsewhere(arguments) as elsewhere, _hydra_arguments([*arguments, *elsewhere]):
+    with _elsewhere(arguments) as elsewhere, _hydra_arguments([*elsewhere, *arguments]):
         try:
             decorated()
         except SystemExit:
@@ -108,8 +109,11 @@ def make_importable(folder: Path) -> None:
 
 @contextmanager
 def _elsewhere(arguments: Sequence[str]) -> Iterator[list[str]]:
-    """Overrides that keep Hydra, which makes folders by itself, from making the run folder for a dry run."""
-    if not any(it.startswith("dry_run=") and it.lower() != "dry_run=false" for it in arguments):
+    """Overrides that keep Hydra from making folders and files of its own in the run folder: what it writes of
+    a sweep holds the command line, and with it perhaps a key. Other launchers need their folder."""
+    sweeps = any(argument in SWEEP for argument in arguments) or is_experiment(arguments)
+    is_dry = any(it.startswith("dry_run=") and it.lower() != "dry_run=false" for it in arguments)
+    if not (sweeps or is_dry) or any(argument.startswith(OWN_FOLDERS) for argument in arguments):
         yield []
         return
     with TemporaryDirectory(prefix="adhoc-") as folder:

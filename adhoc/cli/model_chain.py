@@ -16,6 +16,7 @@ from typing import Any
 from omegaconf import DictConfig, OmegaConf
 
 from adhoc.cli.build import TARGET, Offer, build
+from adhoc.cli.shards import folder_of
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.exchanges import TranscribingModel
 from adhoc.llm.budget import NOTHING, Caps, EpisodeCapModel, RunCapModel, Spent
@@ -148,7 +149,7 @@ def ledger_folder(config: DictConfig) -> Path:
     """Where calls are recorded, or replayed from. Raises ConfigurationError if it has no name, or is the run
     folder, whose records are no calls."""
     if config.ledger.path is None:
-        return Path(config.out) / "ledger"
+        return folder_of(config) / "ledger"
     if not config.ledger.path.strip():
         raise ConfigurationError("ledger.path=: must name a folder, or be null for OUT/ledger")
     path = Path(config.ledger.path)

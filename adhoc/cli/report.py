@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import gc
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 
 from adhoc.cli.report_parts import Results, paper_document
@@ -12,7 +13,7 @@ from adhoc.cli.table_console import table_console
 from adhoc.core.errors import ConfigurationError
 from adhoc.reporting.comparisons import Scope
 from adhoc.reporting.rendering.html import html_document
-from adhoc.reporting.rendering.latex import latex_document
+from adhoc.reporting.rendering.latex import check_label_prefix, latex_document
 from adhoc.reporting.rendering.markdown import markdown_document
 from adhoc.reporting.rendering.terminal import terminal_table
 from adhoc.reporting.table import Document
@@ -54,7 +55,9 @@ def _report(options: argparse.Namespace) -> None:
     else:
         document = paper_document()
         _print(document)
-    for name, (_, write) in FORMATS.items():
+    writers = {name: write for name, (_, write) in FORMATS.items()}
+    writers["latex"] = partial(latex_document, label_prefix=options.label_prefix)
+    for name, write in writers.items():
         path: Path | None = getattr(options, name)
         if path is not None:
             path.write_text(write(document), encoding="utf-8")
@@ -65,7 +68,7 @@ def _print(document: Document) -> None:
     console.print(document.title, style="bold")
     console.print()
     for table in document.tables:
-        console.print(terminal_table(table))
+        console.print(terminal_table(table), crop=False)
         console.print()
     for warning in document.warnings:
         console.print(warning, style="yellow", markup=False, highlight=False)
@@ -83,6 +86,12 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("folders", nargs="*", metavar="DIR", help="a run folder, the out=... of `adhoc run`")
     for name, (what, _) in FORMATS.items():
         parser.add_argument(f"--{name}", metavar="FILE", type=Path, help=f"write everything as {what}, too")
+    parser.add_argument(
+        "--label-prefix",
+        metavar="NAME",
+        default="",
+        help="with --latex: the labels are tab:NAME-..., so that a paper can read in several reports",
+    )
     parser.add_argument("--figures", metavar="DIR", type=Path, help="draw the figures there, as SVG and PNG")
     parser.add_argument(
         "--paper",
@@ -125,6 +134,9 @@ def _check(options: argparse.Namespace) -> None:
     """What can be known to fail before any record is read."""
     if options.difference is not None and not options.power:
         raise ConfigurationError(f"--difference {options.difference:g}: goes with --power")
+    if options.label_prefix and options.latex is None:
+        raise ConfigurationError(f"--label-prefix {options.label_prefix}: goes with --latex")
+    check_label_prefix(options.label_prefix)
     if not options.folders and not options.paper:
         raise ConfigurationError("DIR: name a run folder, or ask for the paper's numbers with --paper")
     needs_records = ("figures", "intervals", "power", "team", "policy")

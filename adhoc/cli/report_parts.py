@@ -12,6 +12,7 @@ from pathlib import Path
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile
 from adhoc.experiments.failures import FAILURES_NAME, FailureFile
+from adhoc.experiments.provenance.file import unfinished_runs
 from adhoc.reporting.agreement_table import agreement_table
 from adhoc.reporting.comparison_table import comparison_tables
 from adhoc.reporting.comparisons import Scope, families
@@ -21,7 +22,7 @@ from adhoc.reporting.effort_table import effort_table
 from adhoc.reporting.folders import folder_settings, read_folders
 from adhoc.reporting.ordering import ordering_tables
 from adhoc.reporting.paper_layout import paper_only, paper_tables
-from adhoc.reporting.paper_numbers import paper_numbers
+from adhoc.reporting.paper_numbers import PaperNumbers, paper_numbers
 from adhoc.reporting.power_table import power_tables
 from adhoc.reporting.prediction_table import prediction_table
 from adhoc.reporting.report import make_report
@@ -71,9 +72,9 @@ class Results:
         }
         tables = [
             *paper_tables(self._report, self._options.intervals, self._paper, marked),
-            *(table for table in self._common if table is not None),
-            *self._statistics(every_pair=for_file),
-            *([] if self._paper is None else [contradiction_table(self._paper)]),
+            *(it.about(self._report.model) for it in self._common if it is not None),
+            *(it.about(self._report.model) for it in self._statistics(every_pair=for_file)),
+            *([] if self._paper is None else [contradiction_table(self._paper).about(_model(self._paper))]),
         ]
         return Document(
             self._report.title,
@@ -115,16 +116,27 @@ class Results:
 def paper_document() -> Document:
     """The paper's own tables, and where they contradict each other."""
     paper = paper_numbers()
+    tables = (*paper_only(paper), contradiction_table(paper))
     return Document(
-        f"The paper's numbers; language model: {paper.model}; {paper.tasks} tasks",
-        (*paper_only(paper), contradiction_table(paper)),
+        f"The paper's numbers; {_model(paper)}; {paper.tasks} tasks",
+        tuple(it.about(_model(paper)) for it in tables),
         notes=(f"{paper.source}; every cell as it is printed there",),
     )
+
+
+def _model(paper: PaperNumbers) -> str:
+    return f"language model: {paper.model}"
 
 
 def _unrecorded(folders: Sequence[str | Path], recorded: set[str]) -> Iterator[str]:
     """Episodes that were begun and are in no row."""
     for folder in folders:
+        unfinished = unfinished_runs(folder)
+        if unfinished:
+            yield (
+                f"{folder}: {len(unfinished)} of its runs did not finish, so rows may lack episodes; the "
+                "same command goes on, and adhoc verify says what is missing"
+            )
         failed = len(FailureFile(folder).failures)
         if failed:
             yield (

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import sys
+import warnings
 from collections.abc import Sequence
 from contextlib import ExitStack
 
 from omegaconf import DictConfig, OmegaConf
 
-from adhoc.cli.dry_run import dry_run
+from adhoc import __version__
+from adhoc.cli.dry_run import dry_runs
 from adhoc.cli.executing import execute
 from adhoc.cli.person import asks_person
 from adhoc.cli.shards import folder_of, shard_of
@@ -45,11 +47,10 @@ def run_configs(configs: Sequence[DictConfig]) -> int:
     """Run composed and checked configurations, or estimate what they would ask of a model; returns the exit
     code. Raises AdhocError for whatever goes wrong."""
     code = 0
-    for group in _runs(configs):
-        if group[0].dry_run:
-            for config in group:
-                dry_run(config)
-        elif _run(group).failed:
+    runs = _runs(configs)
+    dry_runs([run for run in runs if run[0].dry_run])
+    for run in runs:
+        if not run[0].dry_run and _run(run).failed:
             code = SOME_FAILED
     return code
 
@@ -72,10 +73,21 @@ def _run(configs: Sequence[DictConfig]) -> RunSummary:
     with ExitStack() as stack:
         stack.enter_context(locked(path))
         folder = RunFolder(path, Tolerance(first.fail_on_error))
+        _warn_of_versions(folder)
         stack.callback(_tell_end, configs, folder)
         progress = stack.enter_context(ConsoleProgress(live=live))
         summary = execute(configs, folder, shard_of(first), progress)
     return summary
+
+
+def _warn_of_versions(folder: RunFolder) -> None:
+    versions = sorted({str(record["library_version"]) for record in folder.records} - {__version__})
+    if versions:
+        warnings.warn(
+            f"{folder.path}: holds episodes of adhoc {', '.join(versions)}; this is {__version__}. Episodes "
+            "of several versions in one table may not be comparable",
+            stacklevel=2,
+        )
 
 
 def _tell_end(configs: Sequence[DictConfig], folder: RunFolder) -> None:
@@ -88,7 +100,7 @@ def _tell_end(configs: Sequence[DictConfig], folder: RunFolder) -> None:
     ]
     table = cost_table(mine)
     if table is not None:
-        table_console().print(terminal_table(table))
+        table_console().print(terminal_table(table), crop=False)
     if folder.records:
         sys.stdout.write(f"look into an episode: adhoc inspect {folder.path} EPISODE\n")
     if folder.failures:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import nullcontext, suppress
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from omegaconf import DictConfig, OmegaConf
 
+from adhoc.core.errors import AdhocError
 from adhoc.experiments.provenance.session import begin_session, end_session
 
 
@@ -29,6 +31,8 @@ class Sessions:
         ]
         """The configurations as plain values."""
         self._runs: dict[int, str] = {}
+        self.complete = False
+        """Whether everything was done that was to be done."""
 
     @property
     def runs(self) -> list[str]:
@@ -48,7 +52,8 @@ class Sessions:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         for run in dict.fromkeys(self._runs.values()):
-            end_session(self._folder, run)
+            with nullcontext() if error is None else suppress(AdhocError):
+                end_session(self._folder, run, self.complete)
 
 
 def _plain(config: DictConfig) -> Any:

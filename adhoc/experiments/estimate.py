@@ -18,6 +18,9 @@ class Spread:
     least: Use
     most: Use
 
+    def __add__(self, other: Spread) -> Spread:
+        return Spread(self.mean + other.mean, self.least + other.least, self.most + other.most)
+
     def times(self, factor: float) -> Spread:
         """For so many scenarios: as expected, if all were like the cheapest, and like the dearest."""
         return Spread(self.mean.times(factor), self.least.times(factor), self.most.times(factor))

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
-import os
+import math
 import traceback
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass, fields
@@ -22,6 +23,7 @@ from adhoc.core.errors import (
     TaskError,
     WorkerError,
 )
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.records import writing
 
@@ -34,13 +36,15 @@ ENDS_THE_RUN = (
     MemoryError,
     MissingDependency,
     ModelError,
-    OSError,
     PromptError,
     RecordError,
     TaskError,
     WorkerError,
 )
-"""What would go wrong in the next episode as well: the configuration, the disk, the provider."""
+"""What would go wrong in the next episode as well: the configuration, the records, the provider."""
+DISK_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS)
+"""Numbers of the OSErrors that would, too; any other is the episode's own, such as a policy's lost
+connection."""
 
 
 @dataclass(frozen=True)
@@ -62,8 +66,7 @@ class Failure:
     @classmethod
     def of(cls, key: EpisodeKey, error: BaseException) -> Failure:
         """What went wrong in an episode."""
-        kind = key.kind
-        trace = "".join(traceback.format_exception(type(error), error, error.__traceback__))
+        kind, told = key.kind, traceback.TracebackException.from_exception(error)
         return cls(
             key.id,
             key.scenario_id,
@@ -71,10 +74,15 @@ class Failure:
             kind.policy,
             kind.join_step,
             type(error).__name__,
-            str(error),
-            trace,
+            str(told),
+            "".join(told.format()),
             __version__,
         )
+
+
+def ends_the_run(error: BaseException) -> bool:
+    """Whether it would go wrong in the next episode as well."""
+    return isinstance(error, ENDS_THE_RUN) or (isinstance(error, OSError) and error.errno in DISK_FULL)
 
 
 class FailureFile:
@@ -124,13 +132,8 @@ class FailureFile:
         if not lines:
             self.path.unlink(missing_ok=True)
             return
-        fresh = self.path.with_suffix(".new")
         with writing(self.path):
-            with open(fresh, "w", encoding="utf-8") as file:
-                file.write(lines)
-                file.flush()
-                os.fsync(file.fileno())
-            fresh.replace(self.path)
+            write_whole(self.path, lines.encode())
 
 
 @dataclass(frozen=True)
@@ -149,7 +152,7 @@ class Tolerance:
 
     def __post_init__(self) -> None:
         most = self.most
-        if most is None or 0 <= most < 1 or (most >= 1 and most == int(most)):
+        if most is None or 0 <= most < 1 or (math.isfinite(most) and most >= 1 and most == int(most)):
             return
         raise ConfigurationError(
             f"fail_on_error={most}: must be a share below 1, a whole number of episodes, or null"

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from adhoc.core.errors import EpisodesFailed, RecordError
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile, writing
 from adhoc.evaluation.settings_files import differing, read_settings, settings_path
 from adhoc.experiments.failures import Failure, FailureFile, Tolerance
@@ -78,6 +79,7 @@ class RunFolder:
         self._tolerance = tolerance or Tolerance()
         self._expected = self._failed = 0
         self._failures = FailureFile(folder)
+        self._kept: set[str] = set()
         self._file = RecordFile(folder)
         self._records = {str(record["episode_id"]): record for record in self._file.read()}
         self._unfinished_file = RecordFile(folder, UNFINISHED_NAME)
@@ -97,6 +99,11 @@ class RunFolder:
     def failures(self) -> tuple[Failure, ...]:
         """The episodes whose latest attempt failed."""
         return self._failures.failures
+
+    @property
+    def unfinished(self) -> list[Record]:
+        """What became of episodes that a cap of the run cut short."""
+        return list(self._unfinished.values())
 
     def expect(self, episodes: int) -> None:
         """A run of so many episodes begins."""
@@ -133,6 +140,8 @@ class RunFolder:
 
     def add(self, key: FolderKey, record: Record) -> None:
         """Store the record of an episode, and the settings behind its `config_hash`."""
+        if key.id in self._records:
+            raise RecordError(f"{self._file.path}: episode {key.id!r} is there already; it was run twice")
         self._keep_settings(key)
         self._file.append(record)
         self._records[key.id] = record
@@ -159,10 +168,14 @@ class RunFolder:
         self._unfinished_file.replace(list(self._unfinished.values()))
 
     def _keep_settings(self, key: FolderKey) -> None:
+        if key.config_hash in self._kept:
+            return
         path = self._settings_path(key.config_hash)
-        if not path.exists():
-            with writing(path):
-                path.write_text(json.dumps(key.settings, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+        content = (json.dumps(key.settings, indent=2, sort_keys=True) + "\n").encode()
+        with writing(path):
+            if not path.exists() or path.read_bytes() != content:
+                write_whole(path, content)
+        self._kept.add(key.config_hash)
 
     def _settings_path(self, config_hash: str) -> Path:
         return settings_path(self.path, config_hash)

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from adhoc.core.errors import RecordError
-from adhoc.evaluation.records import Record, RecordFile, checked_part, writing
+from adhoc.core.whole_file import write_whole
+from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile, checked_part, writing
 from adhoc.experiments.failures import FailureFile
 from adhoc.experiments.folder import RunFolder, group_of
-from adhoc.experiments.provenance.file import merge_provenance
+from adhoc.experiments.provenance.file import merge_provenance, provenance_files
 
 BESIDE = ("settings", "pictures", "transcripts", "sessions")
 """Folders whose files are copied as they are: those of one name are the same in all parts."""
@@ -39,7 +39,7 @@ def merge_folders(folder: str | Path, parts: Sequence[str | Path]) -> Merged:
         parts: Run folders of the same configuration.
 
     Raises:
-        RecordError: A part is damaged or has no records, an episode is in two folders and differs, or a
+        RecordError: A part is damaged or was never run, an episode is in two folders and differs, or a
             policy was run with several configurations.
     """
     target = Path(folder)
@@ -49,7 +49,7 @@ def merge_folders(folder: str | Path, parts: Sequence[str | Path]) -> Merged:
     before = len(owners)
     for part in map(Path, parts):
         records = RecordFile(part).read()
-        if not records:
+        if not records and not provenance_files(part):
             raise RecordError(f"{part}: there are no episode records to merge")
         for record in records:
             _add(owners, part, record)
@@ -60,6 +60,7 @@ def merge_folders(folder: str | Path, parts: Sequence[str | Path]) -> Merged:
         _copy_ledger(part / LEDGER, target / LEDGER)
     merge_provenance(target, parts)
     RecordFile(target).replace([record for _, record in owners.values()])
+    _merge_unfinished(target, parts, owners)
     failures = _merge_failures(target, parts, owners)
     return Merged(len(owners), len(owners) - before, failures)
 
@@ -98,19 +99,31 @@ def _merge_failures(target: Path, parts: Sequence[str | Path], recorded: Iterabl
     return len(kept.failures)
 
 
+def _merge_unfinished(target: Path, parts: Sequence[str | Path], recorded: Iterable[str]) -> None:
+    """What became of episodes that a cap cut short and that are recorded nowhere."""
+    known = set(recorded)
+    kept = {
+        str(record["episode_id"]): record
+        for folder in (target, *parts)
+        for record in RunFolder(folder).unfinished
+        if record["episode_id"] not in known
+    }
+    RecordFile(target, UNFINISHED_NAME).replace(list(kept.values()))
+
+
 def _copy(source: Path, target: Path) -> None:
     """Files that are not there yet."""
     for path in sorted(source.glob("*")) if source.is_dir() else ():
         to = target / path.name
         if path.is_file() and not to.exists():
             with writing(to):
-                shutil.copyfile(path, to)
+                write_whole(to, path.read_bytes())
 
 
 def _copy_ledger(source: Path, target: Path) -> None:
     """A part's ledger files, under names that tell the part."""
     for path in sorted(source.glob("*.jsonl")) if source.is_dir() else ():
         to = target / f"{source.parent.name}-{path.name}"
-        if not to.exists():
+        if not to.exists() or to.stat().st_size != path.stat().st_size:
             with writing(to):
-                shutil.copyfile(path, to)
+                write_whole(to, path.read_bytes())

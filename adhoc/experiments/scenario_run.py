@@ -11,7 +11,7 @@ from adhoc.evaluation.llm_field import stage_counts
 from adhoc.evaluation.recording import make_record
 from adhoc.evaluation.records import Record
 from adhoc.experiments.comparison import Comparison
-from adhoc.experiments.failures import ENDS_THE_RUN, Failure
+from adhoc.experiments.failures import Failure, ends_the_run
 from adhoc.experiments.folder import EpisodeStore
 from adhoc.experiments.progress import Progress
 
@@ -20,7 +20,8 @@ def run_scenario(comparison: Comparison, position: int, store: EpisodeStore, pro
     """Run what `store` does not hold yet of one scenario.
 
     An episode with a newcomer is checked to share its past with the team alone (EpisodeError if not). An
-    episode that raises is stored as a failure, and so are those that would need it; but for `ENDS_THE_RUN`.
+    episode that raises is stored as a failure, and so are those that would need it; but for errors that end
+    the run (`failures.ends_the_run`).
 
     Args:
         comparison: What is compared.
@@ -37,21 +38,21 @@ def run_scenario(comparison: Comparison, position: int, store: EpisodeStore, pro
     alone: Record | None = None
     for kind in comparison.kinds:
         key = EpisodeKey(scenario, kind)
-        record = store.find(key)
-        if record is None:
-            progress.started(key.id)
-            try:
+        try:
+            record = store.find(key)
+            if record is None:
+                progress.started(key.id)
                 if kind.newcomer is not None and alone is None:
                     raise EpisodeError(f"{key.id}: the episode of the team alone failed")
                 record = _run_one(comparison, key, alone, store)
-            except ENDS_THE_RUN:
+                progress.finished(record)
+        except (Exception, SystemExit) as error:
+            if ends_the_run(error):
                 raise
-            except Exception as error:  # noqa: BLE001  (whatever a policy raises is that episode's failure)
-                failure = Failure.of(key, error)
-                progress.failed(failure)
-                store.add_failure(failure)
-                continue
-            progress.finished(record)
+            failure = Failure.of(key, error)
+            progress.failed(failure)
+            store.add_failure(failure)
+            continue
         if kind.newcomer is None:
             alone = record
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from adhoc.reporting.comparisons import ALONE, BEYOND_CHANCE, Comparison, Family
+from adhoc.reporting.counting import counted
+from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import told
 from adhoc.reporting.table import Table, plain_table
+from adhoc.statistics.intervals import LEVEL
 
 COLUMNS = ("Team", "ad hoc", "against", "points", "won : lost", "McNemar", "by houses", "Holm", "N (houses)")
 _SMALLEST = 0.001
@@ -43,16 +46,24 @@ def _is_shown(it: Comparison) -> bool:
 
 def _remarks(here: Sequence[Family]) -> Iterator[str]:
     sizes = sorted({it.family_size for family in here for it in family.comparisons})
-    yield "points of %Suc on the same tasks; won : lost: tasks in which just the one or the other succeeded"
+    yield (
+        f"points of %Suc on the same tasks, in brackets their {LEVEL:.0%} interval by bootstrap over houses; "
+        "won : lost: tasks in which just the one or the other succeeded"
+    )
     yield (
         "McNemar: exact p if tasks are independent; by houses: exact p if only houses are; Holm: the latter "
         f"for {' or '.join(map(str, sizes))} comparisons at once; *: that is at most {BEYOND_CHANCE:g}"
     )
+    yield from few_houses(it.test.houses for family in here for it in family.comparisons)
 
 
 def _omission(left_out: int) -> Iterator[str]:
     if left_out:
-        yield f"{left_out} pairs with p by houses over {BEYOND_CHANCE:g} are not shown here, but in files"
+        are = "is" if left_out == 1 else "are"
+        yield (
+            f"{counted(left_out, 'pair')} with p by houses over {BEYOND_CHANCE:g} {are} not shown here, "
+            "but in files"
+        )
 
 
 def _rows(team: str, shown: Sequence[Comparison]) -> Iterator[tuple[str, ...]]:

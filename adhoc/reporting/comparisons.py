@@ -145,7 +145,7 @@ def _turned(it: Comparison) -> Comparison:
         it,
         policy=it.against,
         against=it.policy,
-        points=Interval(-it.points.mean, -it.points.high, -it.points.low),
+        points=Interval(-it.points.mean, -it.points.high, -it.points.low, it.points.houses),
         test=replace(it.test, wins=it.test.losses, losses=it.test.wins),
         pilot=replace(it.pilot, difference=-it.pilot.difference),
     )

@@ -9,6 +9,8 @@ from typing import Any
 from adhoc.evaluation.records import Record
 from adhoc.llm.offline.reasoner import OFFLINE_NAME
 from adhoc.llm.team_model import TEAM_PREFIX
+from adhoc.reporting.pairing import contestant
+from adhoc.reporting.paper_order import Order, policy_order, team_order
 from adhoc.reporting.table import Table, plain_table
 
 COLUMNS = ("episodes of", "stage", "calls", "tokens in", "tokens out", "USD", "USD an episode")
@@ -81,7 +83,7 @@ def cost_rows(records: Iterable[Record]) -> list[CostRow]:
     groups: dict[str, list[Record]] = {}
     asked = [it for it in records if it["llm"]["calls"] and it["model"] != OFFLINE_NAME]
     several = len({it["team_label"] for it in asked}) > 1
-    for record in asked:
+    for record in sorted(asked, key=_order):
         groups.setdefault(_contestant(record, several), []).append(record)
     return [row for name, mine in groups.items() for row in stage_rows(name, mine)]
 
@@ -137,6 +139,11 @@ def _contestant(record: Record, several_teams: bool) -> str:
     beside = f" beside {record['team_label']}" if several_teams else ""
     name = f"{record['team_label']} alone" if alone else f"{record['policy_label']}{beside}"
     return f"{name} ({record['model']})"
+
+
+def _order(record: Record) -> tuple[Order, Order]:
+    who = contestant(record)
+    return team_order(who.team), policy_order(who)
 
 
 def _use(counts: Mapping[str, Any]) -> Use:

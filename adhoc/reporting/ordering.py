@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from adhoc.reporting.comparisons import BEYOND_CHANCE, Comparison, Family
+from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.table import Table, plain_table
-from adhoc.statistics.intervals import LEVEL, Interval, Sample, clustered_intervals
+from adhoc.statistics.intervals import LEAST_HOUSES, LEVEL, Interval, Sample, clustered_intervals
 
 COLUMNS = ("Team", "ad hoc", "%Suc", "points over the team alone", "points over the first", "N", "houses")
 
@@ -80,7 +81,9 @@ def ordering_tables(found: Sequence[Family]) -> Iterator[Table]:
     for join_step in dict.fromkeys(it.join_step for it in orders):
         here = [it for it in orders if it.join_step == join_step]
         title = f"By success, joining at step {join_step}"
-        yield plain_table(f"order-{join_step}", title, COLUMNS, 2, map(_rows, here), _REMARKS)
+        compared = [it for order in here for place in order.places for it in (place.alone, place.best)]
+        remarks = (*_REMARKS, *few_houses(it.test.houses for it in compared if it is not None))
+        yield plain_table(f"order-{join_step}", title, COLUMNS, 2, map(_rows, here), remarks)
 
 
 def told(interval: Interval, is_difference: bool, star: bool = False) -> str:
@@ -96,7 +99,7 @@ def _digits(number: float, is_difference: bool) -> str:
 
 _REMARKS = (
     f"in brackets the {LEVEL:.0%} interval by bootstrap over houses, each for itself; ? where all houses are "
-    "alike or there is but one",
+    f"alike or there are fewer than {LEAST_HOUSES}",
     f"*: beyond chance at {BEYOND_CHANCE:.0%} with all comparisons of the family taken together (Holm)",
 )
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from adhoc.reporting.counting import counted
+from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.paper_numbers import PaperBlock, PaperNumbers, PaperRow
 from adhoc.reporting.paper_order import ABLATIONS, FULL_METHOD, ablation_order
 from adhoc.reporting.report import Block, Report
 from adhoc.reporting.rows import FEWER_IS_BETTER, METRICS, ResultRow
 from adhoc.reporting.table import Cell, Column, Row, Table
-from adhoc.statistics.intervals import LEVEL
+from adhoc.statistics.intervals import LEAST_HOUSES, LEVEL
 
 HEADINGS = ("%Suc ↑", "%PS ↑", "#TS ↓", "#AS ↓", "%SE ↑")
 """Of `METRICS`."""
@@ -23,8 +25,13 @@ Marked = Collection[tuple[int | None, str, str]]
 alone's beyond chance (see `reporting.comparisons`)."""
 
 _INTERVALS = (
-    f"below each number its {LEVEL:.0%} interval by bootstrap over houses, each for itself; †: that of the "
-    "paired difference from the team alone excludes nothing gained, taken by itself"
+    f"below each number its {LEVEL:.0%} interval by bootstrap over houses, each for itself; [?]: all houses "
+    f"are alike, or fewer than {LEAST_HOUSES}"
+)
+_DAGGER = (
+    f"†: the {LEVEL:.0%} interval of the paired difference from the team alone (not shown) excludes zero; "
+    "each number by itself, not corrected for many comparisons, so it may stand beside a test that finds "
+    "nothing"
 )
 _BEYOND_CHANCE = (
     "*: success differs from the team alone's beyond chance with all comparisons of the team and step "
@@ -47,7 +54,6 @@ def paper_tables(
     """
     if not intervals:
         report, marked = _without_intervals(report), ()
-    remarks = _remarks(report, paper)
     for block in report.blocks:
         main = [row for row in block.rows if not _is_ablation(row)]
         teams = dict.fromkeys(row.team for row in main)
@@ -68,9 +74,9 @@ def paper_tables(
                     )
                     for rows in groups
                 ),
-                remarks,
+                tuple(_remarks([row for rows in groups for row in rows], paper)),
             )
-    yield from _ablations(report, paper, marked, remarks)
+    yield from _ablations(report, paper, marked)
 
 
 def paper_only(paper: PaperNumbers) -> Iterator[Table]:
@@ -87,7 +93,7 @@ def paper_only(paper: PaperNumbers) -> Iterator[Table]:
                     Row(
                         (
                             Cell(block.heading),
-                            Cell(row.label),
+                            Cell(_as_printed(row.label)),
                             *(Cell(it.text, "", it.bold) for it in row.cells),
                         )
                     )
@@ -131,12 +137,10 @@ def best_of(rows: Sequence[ResultRow]) -> dict[int, set[str]]:
     return found
 
 
-def _ablations(
-    report: Report, paper: PaperNumbers | None, marked: Marked, remarks: tuple[str, ...]
-) -> Iterator[Table]:
+def _ablations(report: Report, paper: PaperNumbers | None, marked: Marked) -> Iterator[Table]:
     teams = dict.fromkeys(row.team for block in report.blocks for row in block.rows if _is_ablation(row))
     for number, team in enumerate(teams):
-        groups, name = [], ""
+        groups, shown, name = [], list[ResultRow](), ""
         for block in report.blocks:
             mine = [row for row in block.rows if row.team == team]
             compared = [row for row in mine if row.who and row.who.policy in (*ABLATIONS, FULL_METHOD)]
@@ -144,6 +148,7 @@ def _ablations(
                 alone = [row for row in mine if row.who is None]
                 rows = [*alone, *sorted(compared, key=lambda row: ablation_order(row.who))]  # type: ignore[arg-type]
                 name = rows[0].team_name
+                shown += rows
                 steps = [str(block.join_step)] * len(rows)
                 groups.append(_group(rows, steps, _paper_rows(paper, block, rows, True), marked, block))
         key = "ablation" if number == 0 else f"ablation-{number + 1}"
@@ -152,7 +157,7 @@ def _ablations(
             f"Ablation of the sub-task planner; team: {name}; {report.model}",
             STEP_COLUMNS,
             tuple(groups),
-            remarks,
+            tuple(_remarks(shown, paper)),
         )
 
 
@@ -195,15 +200,32 @@ def _paper_row(blocks: Iterable[PaperBlock], row: ResultRow) -> PaperRow | None:
     return next(iter(named or [it for it in candidates if it.model is None]), None)
 
 
-def _remarks(report: Report, paper: PaperNumbers | None) -> tuple[str, ...]:
-    rows = [row for block in report.blocks for row in block.rows]
-    told = [_INTERVALS, _BEYOND_CHANCE] if any(row.uncertainty for row in rows) else []
+def _remarks(rows: Sequence[ResultRow], paper: PaperNumbers | None) -> Iterator[str]:
+    known = [row.uncertainty for row in rows if row.uncertainty is not None]
+    if known:
+        yield _INTERVALS
+        if any(it.is_marked(metric) for it in known for metric in METRICS):
+            yield _DAGGER
+        yield _BEYOND_CHANCE
+        yield from few_houses(it.houses for it in known)
     if paper is not None:
-        told.append(
+        yield (
             f"in italics the paper's own numbers, of {paper.model} on its {paper.tasks} tasks, which "
             "differ from ours"
         )
-    return tuple(told)
+    yield from _unaided(rows)
+
+
+def _unaided(rows: Sequence[ResultRow]) -> Iterator[str]:
+    """Success that came with a newcomer that brought nothing to its place itself."""
+    told = dict.fromkeys(
+        f"{row.ad_hoc} beside {row.team_name} ({counted(row.unaided, 'task')})" for row in rows if row.unaided
+    )
+    if told:
+        yield (
+            "more success without any object that the newcomer placed in the tasks won (its presence, "
+            f"messages or body changed what the team did): {', '.join(told)}"
+        )
 
 
 def _without_intervals(report: Report) -> Report:
@@ -211,6 +233,11 @@ def _without_intervals(report: Report) -> Report:
         replace(it, rows=tuple(replace(row, uncertainty=None) for row in it.rows)) for it in report.blocks
     )
     return replace(report, blocks=tuple(blocks))
+
+
+def _as_printed(label: str) -> str:
+    """A name as the paper prints it, a stray bracket marked as not ours."""
+    return label if label.count("(") == label.count(")") else f"{label} [sic]"
 
 
 def _is_ablation(row: ResultRow) -> bool:

@@ -21,6 +21,10 @@ COLUMNS = (
     "in family",
     "told now",
 )
+EXACT = 1e-9
+"""Slack for the arithmetic of a computer, also of the search for the smallest difference."""
+ASSUMED = "*"
+"""Marks numbers for which the pilot's disagreement was raised to what the difference needs."""
 
 
 def power_tables(
@@ -40,12 +44,13 @@ def power_tables(
         raise ConfigurationError(f"{points:g} points: a difference to be told is above 0 and at most 100")
     for join_step in dict.fromkeys(it.board.join_step for it in found):
         here = [it for it in found if it.board.join_step == join_step]
-        groups = (_rows(family, points, every_pair) for family in here)
+        groups = [list(_rows(family, points, every_pair)) for family in here]
+        is_assumed = any(cell.endswith(ASSUMED) for rows in groups for row in rows for cell in row[3:])
         title = f"Tasks needed to tell apart, joining at step {join_step}"
-        yield plain_table(f"power-{join_step}", title, COLUMNS, 3, groups, list(_remarks(points)))
+        yield plain_table(f"power-{join_step}", title, COLUMNS, 3, groups, list(_remarks(points, is_assumed)))
 
 
-def _remarks(points: float | None) -> Iterator[str]:
+def _remarks(points: float | None, is_assumed: bool) -> Iterator[str]:
     wanted = "the observed difference, if it is the true one" if points is None else f"{points:g} points"
     yield (
         "differ: tasks in which just one succeeds; deff: how many times as many tasks it takes because those "
@@ -57,6 +62,11 @@ def _remarks(points: float | None) -> Iterator[str]:
         "the first of all of the family"
     )
     yield "told now: the points that as many tasks as here would tell, as a single comparison"
+    if is_assumed:
+        yield (
+            f"{ASSUMED} the pilot shows less disagreement (differ) than such a difference needs; the least "
+            "possible was assumed, so this is a lower bound"
+        )
 
 
 def _rows(family: Family, points: float | None, every_pair: bool) -> Iterator[tuple[str, ...]]:
@@ -74,7 +84,7 @@ def _rows(family: Family, points: float | None, every_pair: bool) -> Iterator[tu
             f"{pilot.design_effect:.2f}" if math.isfinite(pilot.design_effect) else "?",
             _needed(it, points, LEVEL),
             _needed(it, points, LEVEL / it.family_size),
-            "none" if smallest is None else f"{100.0 * smallest:.1f}",
+            "none" if smallest is None else f"{100.0 * smallest:.1f}{_mark(it, smallest)}",
         )
 
 
@@ -82,4 +92,10 @@ def _needed(it: Comparison, points: float | None, level: float) -> str:
     difference = abs(it.pilot.difference) if points is None else points / 100.0
     discordant = max(it.pilot.discordant, difference)
     tasks = episodes_needed(difference, discordant, level, design_effect=it.pilot.design_effect)
-    return f"{tasks:,.0f} ({it.pilot.houses_for(tasks):,.0f})" if math.isfinite(tasks) else "-"
+    if not math.isfinite(tasks):
+        return "-"
+    return f"{tasks:,.0f} ({it.pilot.houses_for(tasks):,.0f}){_mark(it, difference)}"
+
+
+def _mark(it: Comparison, difference: float) -> str:
+    return ASSUMED if difference > it.pilot.discordant + EXACT else ""

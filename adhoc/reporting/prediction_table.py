@@ -9,6 +9,7 @@ from dataclasses import fields
 from adhoc.evaluation.predictions import PARTS, Accuracy
 from adhoc.evaluation.records import Record
 from adhoc.reporting.pairing import Contestant, contestant, labels, team_names
+from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.reporting.table import Table, plain_table
 
 FIELD = "predictions"
@@ -44,7 +45,8 @@ def _rows(records: Sequence[Record]) -> Iterator[tuple[str, ...]]:
         groups.setdefault(contestant(record), []).append(record)
     of_each = [mine[0] for mine in groups.values()]
     teams, names = team_names(of_each), labels(of_each)
-    for row, everything in groups.items():
+    for row in sorted(groups, key=lambda it: (team_order(it.team), policy_order(it))):
+        everything = groups[row]
         found = [it[FIELD] for it in everything if it.get(FIELD)]
         if not any(it[f"{part}s"]["made"] for it in found for part in PARTS):
             continue

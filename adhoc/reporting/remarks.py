@@ -8,8 +8,12 @@ from dataclasses import dataclass
 
 from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.records import Record
+from adhoc.reporting.counting import counted
 from adhoc.reporting.pairing import Contestant, Pair, PairKey, Team, contestant, team_of
+from adhoc.reporting.paper_order import team_order
 
+OTHER_SCENARIOS = "rows are over different scenarios: compare within a row only"
+"""Brackets and differences hold even then: each row has the team alone in its own scenarios beside it."""
 MUCH = 0.05
 """From this share of unusable replies or safe choices on, a row says more of them than of its policy."""
 
@@ -52,6 +56,7 @@ def remarks(
             *_versions(shown),
             *_task_versions(shown),
             *_uneven(paired, names),
+            *_other_scenarios(alone, paired, names),
             *(it for it, is_much in told if is_much),
         ),
     )
@@ -63,10 +68,11 @@ def _notes(records: Sequence[Record], paired: Sequence[Pair]) -> Iterator[str]:
     scenarios = len({(record["task_id"], record["scenario_hash"]) for record in records})
     steps = " or ".join(map(str, sorted({record["max_steps"] for record in records})))
     yield f"scenarios: {scenarios}; houses: {houses}; steps: at most {steps}"
-    yield f"{len(paired)} paired episodes, N in a row"
+    yield f"{counted(len(paired), 'paired episode')}, N in a row"
     yield "in brackets: percent better than the team alone in the same scenarios"
     if joined > len(paired):
-        yield f"{joined - len(paired)} episodes left out: their team-alone episode is missing"
+        left_out = counted(joined - len(paired), "episode")
+        yield f"{left_out} left out: the team-alone episode to compare with is missing"
     never = sum(not pair.joined["joined"] for pair in paired)
     if never:
         yield f"{never} of them ended before the newcomer would have joined"
@@ -75,7 +81,9 @@ def _notes(records: Sequence[Record], paired: Sequence[Pair]) -> Iterator[str]:
 def _versions(records: Iterable[Record]) -> Iterator[str]:
     counts = Counter(str(record["library_version"]) for record in records)
     if len(counts) > 1:
-        told = ", ".join(f"{version} ({count} episodes)" for version, count in sorted(counts.items()))
+        told = ", ".join(
+            f"{version} ({counted(count, 'episode')})" for version, count in sorted(counts.items())
+        )
         yield f"made by several versions of the library, which may differ in what they do: {told}"
 
 
@@ -86,7 +94,7 @@ def _task_versions(records: Iterable[Record]) -> Iterator[str]:
     several = sorted(task for task, found in hashes.items() if len(found) > 1)
     if several:
         yield (
-            f"{len(several)} tasks are there in several versions (house, objects or robots differ), each "
+            f"{_are(len(several), 'task')} there in several versions (house, objects or robots differ), each "
             f"counted as a task of its own: {', '.join(several[:3])}{', ...' if len(several) > 3 else ''}"
         )
 
@@ -105,9 +113,26 @@ def _uneven(paired: Iterable[Pair], names: Names) -> Iterator[str]:
         fewer = [f"{names.rows[who]} {count}" for who, count in found.items() if count < total]
         if fewer:
             yield (
-                f"{names.teams[team]}, joining at step {step}: rows are not over the same {total} "
-                "scenarios, so compare them with the team alone and not with each other "
-                f"({', '.join(sorted(fewer))})"
+                f"{names.teams[team]}, joining at step {step}: {OTHER_SCENARIOS} "
+                f"({', '.join(sorted(fewer))} of {counted(total, 'scenario')})"
+            )
+
+
+def _other_scenarios(alone: Mapping[PairKey, Record], paired: Sequence[Pair], names: Names) -> Iterator[str]:
+    """Teams of one table that are over other scenarios than each other."""
+    found: dict[int | None, dict[Team, set[tuple[str, str]]]] = {}
+    shown = ((it.joined["join_step"], it.alone) for it in paired)
+    for step, record in shown if paired else ((None, it) for it in alone.values()):
+        of_team = found.setdefault(step, {}).setdefault(team_of(record), set())
+        of_team.add((record["task_id"], record["scenario_hash"]))
+    for step, teams in sorted(found.items(), key=lambda it: -1 if it[0] is None else it[0]):
+        if any(scenarios != next(iter(teams.values())) for scenarios in teams.values()):
+            where = "the team alone" if step is None else f"joining at step {step}"
+            common = len(set.intersection(*teams.values()))
+            counts = (f"{names.teams[it]} {len(teams[it])}" for it in sorted(teams, key=team_order))
+            yield (
+                f"{where}: {OTHER_SCENARIOS} ({', '.join(counts)}; {counted(common, 'scenario')} shared by "
+                "all)"
             )
 
 
@@ -145,6 +170,10 @@ def questions(records: Iterable[Record]) -> int:
 def total(records: Iterable[Record], field: str, count: str) -> int:
     """The sum of a count over records; those of other versions may lack it."""
     return sum([record.get(field, _NOTHING).get(count, 0) for record in records])
+
+
+def _are(number: int, thing: str) -> str:
+    return f"{counted(number, thing)} {'is' if number == 1 else 'are'}"
 
 
 _NOTHING: Mapping[str, int] = {}

@@ -24,7 +24,7 @@ from adhoc.reporting.pairing import (
 )
 from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.reporting.remarks import Names, remarks
-from adhoc.reporting.rows import ResultRow, averages, gain_of, uncertainties
+from adhoc.reporting.rows import ResultRow, averages, gain_of, unaided_successes, uncertainties
 
 ALONE = "No ad hoc"
 """What the paper calls the team alone."""
@@ -133,5 +133,13 @@ def _alone(step: int | None, team: Team, records: Sequence[Record], names: Names
 def _joined(step: int, who: Contestant, mine: Sequence[Pair], names: Names) -> _Draft:
     joined = [pair.joined for pair in mine]
     scores = averages(joined)
-    row = ResultRow(who.team, who, names.teams[who.team], names.rows[who], scores, gain_of(mine, scores))
+    row = ResultRow(
+        who.team,
+        who,
+        names.teams[who.team],
+        names.rows[who],
+        scores,
+        gain_of(mine, scores),
+        unaided=unaided_successes(mine),
+    )
     return _Draft(step, row, joined, [pair.alone for pair in mine])

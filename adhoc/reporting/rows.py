@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from adhoc.evaluation.metrics import Improvement, Scores, average_columns, improvement
 from adhoc.evaluation.records import Record
+from adhoc.reporting.few_houses import FEW_HOUSES
 from adhoc.reporting.pairing import Contestant, Pair, Team
 from adhoc.statistics.intervals import Interval, Sample, clustered_intervals
 
@@ -17,8 +18,6 @@ METRICS = ("success", "partial_success", "temporal_steps", "action_steps", "effi
 """The columns, by their names in records and in `Scores`."""
 IN_PERCENT = ("success", "partial_success", "efficiency")
 FEWER_IS_BETTER = ("temporal_steps", "action_steps")
-FEW_HOUSES = 10
-"""With fewer, no difference is marked: intervals then hang on single houses."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +49,9 @@ class ResultRow:
     scores: Scores
     gain: Improvement | None
     uncertainty: Uncertainty | None = None
+    unaided: int = 0
+    """Tasks that the team did only with the newcomer, where it succeeded more often with it and the newcomer
+    re-placed no object itself in any of them; 0 elsewhere."""
 
 
 def averages(records: Sequence[Record]) -> Scores:
@@ -60,6 +62,15 @@ def averages(records: Sequence[Record]) -> Scores:
 def gain_of(mine: Sequence[Pair], scores: Scores) -> Improvement:
     """The bracketed percentages of a row."""
     return improvement(averages([pair.alone for pair in mine]), scores)
+
+
+def unaided_successes(mine: Sequence[Pair]) -> int:
+    """How many tasks the team did only with the newcomer, if it did more than alone and the newcomer itself
+    re-placed nothing in any of them; 0 otherwise, and where records of other versions do not tell."""
+    won = [pair.joined for pair in mine if pair.joined["success"] and not pair.alone["success"]]
+    lost = sum(pair.alone["success"] and not pair.joined["success"] for pair in mine)
+    is_unaided = all("first_help" in it and it["first_help"] is None for it in won)
+    return len(won) if len(won) > lost and is_unaided else 0
 
 
 def uncertainties(rows: Sequence[tuple[Sequence[Record], Sequence[Record]]]) -> list[Uncertainty]:

@@ -19,6 +19,7 @@ from adhoc.reporting.pairing import (
     pairs,
     team_names,
 )
+from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.statistics.intervals import FloatArray
 
 
@@ -37,7 +38,7 @@ class Scoreboard:
 
 
 def scoreboards(records: Sequence[Record]) -> list[Scoreboard]:
-    """All that the records tell, by joining step and team in the order of the records; episodes without their
+    """All that the records tell, by joining step and the order of teams of all tables; episodes without their
     team-alone episode are left out.
 
     Raises RecordError for records that do not belong together (see `reporting.pairing`).
@@ -53,9 +54,16 @@ def scoreboards(records: Sequence[Record]) -> list[Scoreboard]:
         group.setdefault(who, {})[id(pair.alone)] = pair
     names, teams = labels(shown.values()), team_names(records)
     return [
-        _scoreboard(teams[team], join_step, {names[who]: it for who, it in groups[join_step, team].items()})
-        for join_step, team in sorted(groups, key=lambda key: key[0])
+        _scoreboard(teams[team], join_step, _by_name(groups[join_step, team], names))
+        for join_step, team in sorted(groups, key=lambda key: (key[0], team_order(key[1])))
     ]
+
+
+def _by_name(
+    group: Mapping[Contestant, Mapping[int, Pair]], names: Mapping[Contestant, str]
+) -> dict[str, Mapping[int, Pair]]:
+    """In the order of policies of all tables, which tells equals apart."""
+    return {names[who]: group[who] for who in sorted(group, key=policy_order)}
 
 
 def _scoreboard(team: str, join_step: int, policies: Mapping[str, Mapping[int, Pair]]) -> Scoreboard:

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.records import Record
 from adhoc.reporting.comparisons import families
+from adhoc.reporting.counting import counted
+from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import Place, orderings
 
 MISTAKES = ("forget_capability", "ignore_teammate", "ignore_reply")
@@ -107,9 +109,12 @@ def sensitivity_markdown(found: Sensitivity) -> str:
         "",
         f"Team: {found.team}, joined at step {found.join_step}; the team alone does {found.alone:.1f}% of "
         "the scenarios. %Suc, and in brackets the 95% interval of how many points it is over the team alone "
-        f"(paired by scenario, bootstrap over {found.houses} houses, {found.scenarios} scenarios).",
+        f"(paired by scenario, bootstrap over {counted(found.houses, 'house')}, "
+        f"{counted(found.scenarios, 'scenario')}).",
         "",
     ]
+    for remark in few_houses([found.houses]):
+        lines += [f"{remark}.", ""]
     for kind in MISTAKES:
         lines += [f"## {kind}", ""]
         lines += ["| ad hoc | " + " | ".join(f"{rate:g}" for rate in found.rates) + " |"]

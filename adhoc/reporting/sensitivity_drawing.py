@@ -8,6 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from adhoc.reporting.counting import counted
+from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.figures.style import whisker
 from adhoc.reporting.sensitivity import MISTAKES, Sensitivity
 
@@ -34,10 +36,12 @@ def draw_sensitivity(found: Sensitivity, path: Path) -> None:
     panels[0].set_ylabel("%Suc over the team alone, in points", fontsize=9)
     handles, names = panels[0].get_legend_handles_labels()
     figure.legend(handles, names, loc="outside lower center", ncols=5, fontsize=8, frameon=False)
+    few = "".join(f"\n{it}" for it in few_houses([found.houses]))
     figure.suptitle(
         f"Success by how often the offline reasoner errs · model: {found.model}\n"
         f"{found.team} team, joined at step {found.join_step}; alone it does {found.alone:.1f}%; "
-        f"{found.scenarios} paired scenarios; bars: 95% by bootstrap over {found.houses} houses",
+        f"{counted(found.scenarios, 'paired scenario')}; bars: 95% by bootstrap over "
+        f"{counted(found.houses, 'house')}{few}",
         fontsize=10,
         x=0.01,
         ha="left",

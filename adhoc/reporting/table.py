@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 
 @dataclass(frozen=True)
@@ -48,6 +48,10 @@ class Table:
     groups: tuple[tuple[Row, ...], ...]
     remarks: tuple[str, ...] = ()
     """Below the table."""
+
+    def about(self, told: str) -> Table:
+        """The same with this in its title, such as the model of its records, unless it is there already."""
+        return self if told in self.title else replace(self, title=f"{self.title}; {told}")
 
     @property
     def has_lines_below(self) -> bool:

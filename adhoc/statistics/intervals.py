@@ -16,6 +16,8 @@ from adhoc.statistics.student import student_quantile
 
 RESAMPLES = 10_000
 LEVEL = 0.95
+LEAST_HOUSES = 5
+"""With fewer houses an interval is not told: it would hold the truth far less often than its level says."""
 _DRAWN_AT_ONCE = 1_000_000
 """Clusters of resamples that are drawn at once, and means that are held at once, to bound memory."""
 
@@ -33,6 +35,8 @@ class Interval:
     mean: float
     low: float
     high: float
+    houses: int | None = None
+    """How many it was resampled from; None where that is not known."""
 
     @property
     def excludes_zero(self) -> bool:
@@ -41,9 +45,10 @@ class Interval:
 
     @property
     def tells_spread(self) -> bool:
-        """Whether the values said anything of how far they scatter: not where all houses are alike (no
-        width), and not with a single house (no bounds)."""
-        return math.isfinite(self.high - self.low) and self.high > self.low
+        """Whether the values said enough of how far they scatter: not where all houses are alike (no
+        width), and not with fewer than `LEAST_HOUSES` (with a single one there are no bounds at all)."""
+        is_of_few = self.houses is not None and self.houses < LEAST_HOUSES
+        return math.isfinite(self.high - self.low) and self.high > self.low and not is_of_few
 
 
 @dataclass(frozen=True)
@@ -130,7 +135,7 @@ def clustered_intervals(
     at_once = max(1, _DRAWN_AT_ONCE // resamples)
     for houses, numbers in by_houses.items():
         if houses == 1:
-            found.update((it, Interval(samples[it].mean, -math.inf, math.inf)) for it in numbers)
+            found.update((it, Interval(samples[it].mean, -math.inf, math.inf, 1)) for it in numbers)
             continue
         tail = expanded_tail(level, houses) if expanded else 0.5 - 0.5 * level
         for start in range(0, len(numbers), at_once):
@@ -164,7 +169,8 @@ def _intervals(samples: Sequence[Sample], tail: float, resamples: int, seed: int
         ]
     )
     lows, highs = np.quantile(means, [tail, 1.0 - tail], axis=0)
-    yield from (Interval(it.mean, float(low), float(high)) for it, low, high in zip(samples, lows, highs))
+    for sample, low, high in zip(samples, lows, highs):
+        yield Interval(sample.mean, float(low), float(high), houses)
 
 
 def _means(draws: np.random.Generator, sums: FloatArray, sizes: FloatArray, count: int) -> FloatArray:

@@ -196,7 +196,7 @@ class TestDryRun:
         run("llm.price={prompt: 10, completion: 30}")
         real = newcomer()["llm"]
         assert whole.startswith(
-            f"The whole run, 1 scenarios: {real['calls']} calls, {real['prompt_tokens']:,} tokens in, "
+            f"The whole run: 2 episodes, {real['calls']} calls, {real['prompt_tokens']:,} tokens in, "
             f"{real['completion_tokens']:,} out, ${real['cost_usd']:.4f}."
         )
 
@@ -205,7 +205,36 @@ class TestDryRun:
         assert list(Path().iterdir()) == []
         told = capsys.readouterr().out
         assert "gpt-4-1106-preview at $10 for a million prompt tokens and $30" in told
-        assert "Dry run: No ad hoc: no language model is asked." in told
+        (total,) = (line for line in told.splitlines() if line.startswith("The whole sweep: "))
+        assert total.startswith(f"The whole sweep: 2 episodes, {CALLS} calls, ")
+        run("-m", "dry_run=true", "policy=random,none", "llm=gpt4_paper")
+        assert "Dry run: Random, No ad hoc: no language model is asked." in capsys.readouterr().out
+
+    def test_a_sweep_counts_its_team_alone_once(self, capsys):
+        """Two joining steps of one policy with a team that asks: what the run itself then asks."""
+        sweep = ("-m", "policy=irot", "team=llm", "join_step=0,5", "llm.price={prompt: 10, completion: 30}")
+        assert run(*sweep, "dry_run=true") == 0
+        told = capsys.readouterr().out
+        run(*sweep)
+        real = records()
+        calls = {record["join_step"]: record["llm"]["calls"] for record in real}
+        cost = sum(record["llm"]["cost_usd"] for record in real)
+        assert calls[None] > 0
+        (total,) = (line for line in told.splitlines() if line.startswith("The whole sweep: "))
+        assert total.startswith(f"The whole sweep: 3 episodes, {sum(calls.values()):,} calls, ")
+        assert f"${cost:,.4f}." in total or f"${cost:,.2f}." in total
+        rows = [
+            line.split() for line in told.splitlines() if line.strip().startswith(("LLM based alone", "IRoT"))
+        ]
+        assert [row[-6:-3] for row in rows] == [
+            [{None: "-"}.get(step, str(step)), "1", str(calls[step])] for step in (None, 0, 5)
+        ], "one short row for each"
+
+    def test_several_runs_have_a_total(self, capsys):
+        assert run("-m", "dry_run=true", "retry.attempts=3,4") == 0
+        told = capsys.readouterr().out
+        assert told.count("The whole run: 2 episodes") == 2
+        assert f"All 2 runs: 4 episodes, {2 * CALLS} calls" in told
 
     def test_caps_are_compared_with_the_estimate(self, capsys):
         run("dry_run=true", "budget.run.calls=9", "budget.run.tokens=10000000")

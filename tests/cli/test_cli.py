@@ -97,7 +97,7 @@ class TestErrors:
         ("arguments", "told"),
         [
             (["join_step=abc"], "'abc' of type 'str' could not be converted to Integer"),
-            (["policy=foo"], "policy=foo: no such choice; there are: cot, gpl, heuristic, human, irot"),
+            (["policy=foo"], "policy=foo: no such choice; there are: cot, gpl, heuristic, human, idle, irot"),
             (["policy=none,random"], "policy=none,random: several values need -m: adhoc run -m policy=none"),
             (["join_step=0,50"], "several values need -m"),
             (["policy/evaluator=foo"], "there are: gpl, keep_order, llm"),
@@ -232,7 +232,6 @@ class TestRun:
         assert [path.name for path in Path().iterdir()] == ["results"]
         assert {path.name for path in Path("results").iterdir()} == {
             "episodes.jsonl",
-            "multirun.yaml",
             "provenance",
             "run.lock",
             "settings",

@@ -18,6 +18,7 @@ from adhoc.cli.schema import register_schema
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.resources import data_dir
 from adhoc.evaluation.records import RecordFile
+from adhoc.experiments.scenario_run import run_scenario
 
 ROOT = data_dir("configs")
 EXPERIMENTS = sorted(path.stem for path in (ROOT / "experiment").glob("*.yaml"))
@@ -121,6 +122,9 @@ def test_several_runs_of_one_command_have_their_own_folders(tmp_path):
         ("executor=cloud", "executor=cloud: no such choice"),
         ("executor.name=cloud", r"executor\.name=cloud: must be one of local, serial, processes, ray"),
         ("join_step=soon", "join_step"),
+        ("policy.name='机器'", "policy.name=机器: must begin with an ASCII letter"),
+        ("policy.name=none", "policy.name=none: is the name of no policy"),
+        ("team.name=", r"team\.name=: must begin"),
     ],
 )
 def test_ill_typed_and_unknown_values_are_named(tmp_path, override, message):
@@ -149,3 +153,48 @@ def test_hydra_tells_what_it_composed(tmp_path, flag):
     assert told.returncode == 0
     assert "LLMGenerator" in told.stdout
     assert not (tmp_path / "out" / "episodes.jsonl").exists()
+
+
+def test_nothing_of_a_command_line_is_written_beside_the_records(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    run_with_hydra(["-m", "policy=random,heuristic", "+llm.api_key=sk-abcdefghijklmnop", *TINY, "out=here"])
+    written = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert not [path for path in written if b"sk-abcdefghijklmnop" in path.read_bytes()]
+    assert [path.name for path in tmp_path.iterdir()] == ["here"]
+
+
+def test_each_shard_has_its_own_ledger_and_tells_its_models(tmp_path):
+    run_with_hydra(["policy=irot", "ledger.mode=record", "shard=1/2", *TINY, f"out={tmp_path}"])
+    part = tmp_path / "shard-1-of-2"
+    assert [path.name for path in tmp_path.iterdir()] == ["shard-1-of-2"]
+    if RecordFile(part).read():
+        assert list((part / "ledger").glob("*.jsonl"))
+
+
+def test_going_on_with_another_version_is_said(tmp_path):
+    run_with_hydra(["policy=random", *TINY, f"out={tmp_path}"])
+    old = [{**it, "library_version": "0.0.1"} for it in RecordFile(tmp_path).read()]
+    RecordFile(tmp_path).replace(old)
+    with pytest.warns(UserWarning, match=r"holds episodes of adhoc 0\.0\.1"):
+        run_with_hydra(["policy=heuristic", *TINY, f"out={tmp_path}"])
+
+
+def test_a_report_says_that_a_run_did_not_finish(tmp_path, capsys, monkeypatch):
+    stopped = "adhoc.experiments.run.run_scenario"
+    before = run_scenario
+
+    def interrupted(comparison, position, store, progress):
+        if store.records:
+            raise KeyboardInterrupt
+        before(comparison, position, store, progress)
+
+    monkeypatch.setattr(stopped, interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_with_hydra(["policy=random", *TINY, "limit=2", f"out={tmp_path}"])
+    main(["report", str(tmp_path)])
+    assert "1 of its runs did not finish" in " ".join(capsys.readouterr().out.split())
+    monkeypatch.setattr(stopped, before)
+    run_with_hydra(["policy=random", *TINY, "limit=2", f"out={tmp_path}"])
+    capsys.readouterr()
+    main(["report", str(tmp_path)])
+    assert "did not finish" not in capsys.readouterr().out

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 from pathlib import Path
 
@@ -47,6 +48,50 @@ def test_all_files_say_the_same(folder, tmp_path, capsys):
             assert told in text
     assert len(check_latex(texts["latex"])) >= 4
     assert texts["html"].startswith("<!doctype html>")
+
+
+def test_every_table_names_the_model_of_its_records(tmp_path, capsys):
+    counts = {"made": 3, "judged": 3, "right": 1, "named": 2}
+    predictions = {"predictions": {"within": 20, "sub_tasks": counts, "sub_skills": counts}}
+    llm = {"llm": {"calls": 3, "cost_usd": 1.0, "stages": {}}}
+    told = [{**it, **(predictions | llm if it["model"] else {})} for it in RECORDS]
+    RecordFile(tmp_path / "run").replace(told)
+    files = {it: tmp_path / f"report.{it}" for it in ("markdown", "latex", "html")}
+    options = [part for it, path in files.items() for part in (f"--{it}", path)]
+    assert report(tmp_path / "run", *options, "--intervals", "--power", "--paper") == 0
+    titles = {
+        "markdown": r"^## (.*)$",
+        "latex": r"^\\caption\{(.*)\}$",
+        "html": r"^<h2>(.*)</h2>$",
+    }
+    kinds = (
+        "joins at",
+        "Predictions",
+        "What a success",
+        "Calls",
+        "By success",
+        "Who is told",
+        "Tasks needed",
+    )
+    for name, pattern in titles.items():
+        found = re.findall(pattern, files[name].read_text(encoding="utf-8"), re.MULTILINE)
+        assert all(any(kind in it for it in found) for kind in kinds)
+        assert [it for it in found if "language model: tiny" not in it] == [
+            it for it in found if "contradict" in it and "language model: gpt-4-1106-preview" in it
+        ]
+    shown = " ".join(capsys.readouterr().out.split())
+    for kind in kinds[1:]:
+        assert "language model: tiny" in shown[shown.index(kind) :][:100]
+
+
+def test_labels_get_the_prefix_that_is_asked_for(folder, tmp_path, capsys):
+    path = tmp_path / "tables.tex"
+    assert report(folder, "--latex", path, "--label-prefix", "small") == 0
+    labels = re.findall(r"label\{(.*?)\}", path.read_text(encoding="utf-8"))
+    assert len(labels) > 1
+    assert all(it.startswith("tab:small-") for it in labels)
+    assert report(folder, "--label-prefix", "small") == 2
+    assert "--label-prefix small: goes with --latex" in capsys.readouterr().err
 
 
 def test_figures_are_drawn_and_put_into_the_page(folder, tmp_path, capsys):

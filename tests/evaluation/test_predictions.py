@@ -177,8 +177,8 @@ class TestTable:
         rows = markdown_table(prediction_table(records)).splitlines()[4:7]
         assert [row.split(" | ")[:3] for row in rows] == [
             ["| Heuristic based", "GPL (m)", "25.0"],
-            ["| LLM", "GPL", "50.0"],
             ["| Heuristic based", "GPL (n)", "75.0"],
+            ["| LLM", "GPL", "50.0"],
         ]
 
     def test_without_predictions_there_is_no_table(self):

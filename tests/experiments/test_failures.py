@@ -112,3 +112,25 @@ def test_a_damaged_file_is_named(tmp_path, line):
     (tmp_path / "failures.jsonl").write_text(line + "\n")
     with pytest.raises(RecordError, match=r"failures\.jsonl, line 1"):
         RunFolder(tmp_path)
+
+
+class Unspeakable(Exception):
+    def __str__(self):
+        raise ValueError("it cannot be told")
+
+
+@pytest.mark.parametrize(
+    "error",
+    [TimeoutError("slow"), ConnectionResetError("gone"), SystemExit(0), Unspeakable(), RecursionError()],
+)
+def test_whatever_else_a_policy_raises_is_its_episodes_failure(tmp_path, error, monkeypatch):
+    monkeypatch.setattr(Faulty, "error", error)
+    summary, store = run(tmp_path, FAULTY)
+    assert (summary.run, summary.failed) == (2, 2)
+    assert {it.error for it in store.failures} == {type(error).__name__}
+
+
+@pytest.mark.parametrize("most", [float("inf"), float("nan")])
+def test_a_tolerance_is_a_number(most):
+    with pytest.raises(ConfigurationError, match="fail_on_error"):
+        Tolerance(most)

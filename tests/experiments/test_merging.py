@@ -10,12 +10,13 @@ from test_run import HELPER, conditions
 
 from adhoc.cli.merge import shards_in
 from adhoc.core.errors import ConfigurationError, RecordError
-from adhoc.evaluation.records import RecordFile, checked_part
+from adhoc.evaluation.records import UNFINISHED_NAME, RecordFile, checked_part
 from adhoc.experiments.comparison import Comparison, Entrant
 from adhoc.experiments.failures import Failure, FailureFile
 from adhoc.experiments.folder import RunFolder
 from adhoc.experiments.merging import merge_folders
 from adhoc.experiments.plan import Shard, make_plan
+from adhoc.experiments.provenance.file import Provenance, write_provenance
 from adhoc.experiments.run import run_plan
 
 
@@ -117,3 +118,19 @@ def test_incomplete_shards_are_refused(tmp_path, names, message):
         (tmp_path / name).mkdir()
     with pytest.raises(ConfigurationError, match=message):
         shards_in(tmp_path)
+
+
+def test_a_part_that_had_nothing_to_do_is_complete(tmp_path):
+    parts = in_shards(tmp_path, 2)
+    empty = tmp_path / "shard-3-of-3"
+    write_provenance(empty, Provenance({}, {"git": None}, {"files": {}}, [{"started": "now"}]))
+    assert merge_folders(tmp_path, [*parts, empty]).records == 24
+
+
+def test_episodes_that_were_cut_short_stay_unfinished(tmp_path):
+    parts = in_shards(tmp_path, 2)
+    first, second = RecordFile(parts[0]).read()[:2]
+    missing = {**first, "episode_id": "another"}
+    RecordFile(parts[1], UNFINISHED_NAME).replace([missing, second])
+    merge_folders(tmp_path, parts)
+    assert [it["episode_id"] for it in RunFolder(tmp_path).unfinished] == ["another"]

@@ -15,10 +15,12 @@ from adhoc.experiments.provenance import code_state
 from adhoc.experiments.provenance.asked_models import asked_models
 from adhoc.experiments.provenance.code_state import git_state
 from adhoc.experiments.provenance.file import (
+    Provenance,
     merge_provenance,
     provenance_files,
     provenance_path,
     read_provenance,
+    unfinished_runs,
     write_provenance,
 )
 from adhoc.experiments.provenance.machine import machine_facts
@@ -393,3 +395,24 @@ def test_machines_that_tell_nothing_are_no_error(monkeypatch, tmp_path):
     facts = machine_facts()
     assert facts["cpu"] is None
     assert facts["memory_bytes"] is None
+
+
+def session(started, complete=None, shard="1/1"):
+    known = {} if complete is None else {"complete": complete}
+    return {"started": started, "options": {"shard": shard}, **known}
+
+
+@pytest.mark.parametrize(
+    ("sessions", "finished"),
+    [
+        ([session("1", False), session("2", True)], True),
+        ([session("1", True), session("2", False)], False),
+        ([session("1", True, "1/2"), session("2", True, "2/2")], True),
+        ([session("1", False, "1/2"), session("2", True, "2/2")], False),
+        ([session("1", False, "1/2"), session("2", True)], True),
+        ([session("1")], True),
+    ],
+)
+def test_a_run_is_unfinished_if_its_latest_session_is(tmp_path, sessions, finished):
+    run = write_provenance(tmp_path, Provenance({}, {"git": None}, {"files": {}}, sessions))
+    assert unfinished_runs(tmp_path) == ([] if finished else [run])

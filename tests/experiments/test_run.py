@@ -12,6 +12,7 @@ from grid_world import Errand, GridWorld, Script, fetch, scenario, two_rooms
 from adhoc.core.errors import ConfigurationError, EpisodesFailed, RecordError
 from adhoc.core.values import Action, ActionName
 from adhoc.evaluation.contender import Conditions, Contender
+from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.records import RecordFile
 from adhoc.experiments.comparison import Comparison, Entrant
 from adhoc.experiments.folder import RunFolder
@@ -199,3 +200,23 @@ def test_another_folder_of_the_house_file_changes_nothing():
     house = replace(two_rooms(), source="elsewhere")
     assert scenario(house=house).content_hash() == scenario().content_hash()
     assert scenario(seed=3).content_hash() != scenario().content_hash()
+
+
+def test_settings_that_were_cut_short_are_written_again(tmp_path):
+    run(tmp_path, newcomer=None)
+    (path,) = (tmp_path / "settings").iterdir()
+    whole = path.read_bytes()
+    path.write_bytes(b"")
+    (tmp_path / "episodes.jsonl").unlink()
+    run(tmp_path, newcomer=None)
+    assert path.read_bytes() == whole
+
+
+def test_an_episode_is_never_stored_twice(tmp_path):
+    comparison = Comparison(GridWorld(), SCENARIOS[:1], conditions())
+    folder = RunFolder(tmp_path)
+    run_comparison(comparison, folder)
+    key = EpisodeKey(SCENARIOS[0], comparison.kinds[0])
+    with pytest.raises(RecordError, match="is there already"):
+        folder.add(key, folder.records[0])
+    assert len(RecordFile(tmp_path).read()) == 1

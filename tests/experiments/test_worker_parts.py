@@ -97,8 +97,10 @@ class TestAgenda:
             agenda.lose(worker, "signal SIGKILL")
         agenda.next(2)
         agenda.note_episode(2, "joined")
-        with pytest.raises(WorkerError, match=r"'joined'.*2 worker processes.*SIGSEGV"):
-            agenda.lose(2, "signal SIGSEGV")
+        assert agenda.given_up("joined") is None
+        agenda.lose(2, "signal SIGSEGV")
+        assert agenda.given_up("joined") == "2 worker processes died in it (last: signal SIGSEGV)"
+        assert agenda.given_up("alone") is None
 
     def test_deaths_before_any_episode_end_the_run_only_if_no_worker_gets_further(self):
         agenda = self.full(deaths=2)

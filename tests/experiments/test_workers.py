@@ -15,7 +15,6 @@ from adhoc.core.errors import (
     ModelBusy,
     ModelError,
     ReplyError,
-    WorkerError,
 )
 from adhoc.evaluation.records import RecordFile, checked_part
 from adhoc.experiments.failures import Tolerance
@@ -218,10 +217,14 @@ def test_a_worker_may_be_killed_in_the_middle_of_a_message(tmp_path):
     assert summary.run == 2
 
 
-def test_an_episode_that_kills_its_worker_again_and_again_ends_the_run(tmp_path):
-    with pytest.raises(WorkerError, match=f"s0--walkers--dying--t3.*{DEATHS} worker.*SIGKILL"):
-        run(tmp_path / "run", Compare("dying", 1, str(tmp_path), deaths=100))
+def test_an_episode_that_kills_its_worker_again_and_again_has_failed(tmp_path):
+    compare = Compare("dying", 1, str(tmp_path), deaths=100)
+    summary, _ = run(tmp_path / "run", compare, tolerance=Tolerance(None))
     assert len(list(tmp_path.glob("death-*"))) == DEATHS
+    assert (summary.run, summary.failed) == (1, 1)
+    (failure,) = RunFolder(tmp_path / "run").failures
+    assert failure.episode_id == "two_rooms-s0--walkers--dying--t3"
+    assert f"{DEATHS} worker processes died in it (last: signal SIGKILL)" in failure.message
 
 
 def test_a_call_in_flight_is_answered_although_its_worker_was_killed(tmp_path):

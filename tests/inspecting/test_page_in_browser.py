@@ -50,6 +50,15 @@ def test_nothing_is_cut_off_at_the_side(told):
     assert told["wide"] is False
 
 
+def test_titles_of_two_policies_side_by_side_are_not_cut(tmp_path):
+    """In a window of 1280 pixels, and at the end, when what is told beside the titles is longest."""
+    first, second = watched(3), watched(4)
+    first.record["policy_label"] = "IRoT w/o Ev. & Rf. (GPT-3.5)"
+    second.record["policy_label"] = "IRoT w/o Ev. & Rf. (GPT-4.1 mini)"
+    write_page([first, second], tmp_path / "page.html")
+    assert self_test(tmp_path / "page.html", tmp_path / "profile")["cutTitles"] == []
+
+
 def test_a_page_that_is_damaged_says_so(tmp_path):
     page = tmp_path / "page.html"
     write_page([watched(None)], page)

@@ -122,8 +122,23 @@ def test_how_many_tasks_the_observed_difference_needs():
 
 def test_how_many_tasks_a_given_difference_needs():
     told = power_rows(families(RECORDS), points=20.0)
-    assert told["b", ALONE][3] == "42 (42)"
+    assert told["b", ALONE][1:4] == ["16.7%", "1.00", "42 (42)*"]
     assert int(told["a", ALONE][3].split()[0]) > 42
+
+
+def test_numbers_for_which_disagreement_was_assumed_are_marked_and_explained():
+    """Of 12 tasks, a differs from the team alone in 8, b in 2 and c in none; 20 points need 2.4."""
+    found = families([*RECORDS, *joined("c", set())])
+    lower_bound = "the least possible was assumed, so this is a lower bound"
+    (table,) = power_tables(found, 20.0)
+    cells = {row.cells[1].text: [it.text for it in row.cells[4:]] for row in table.groups[0][:3]}
+    assert cells["a"][0] == "66.7%"
+    assert not any(it.endswith("*") for it in cells["a"])
+    assert cells["c"][0] == "0.0%"
+    assert all(it.endswith("*") for it in (*cells["b"][2:], *cells["c"][2:])), "told now, too"
+    assert lower_bound in table.remarks[-1]
+    (table,) = power_tables(families([*alone(), *joined("a", {0, 1, 2, 3, 4, 5, 6, 7})]), 20.0)
+    assert not any(lower_bound in it for it in table.remarks)
 
 
 @pytest.mark.parametrize("points", [0.0, -5.0, 101.0, math.nan])

@@ -6,12 +6,13 @@ import re
 import struct
 
 import pytest
+from matplotlib.container import ErrorbarContainer
 from test_report import episode, failed
 
 from adhoc.reporting.figures.by_group import ABLE, GROUPINGS, UNABLE, success_by_group
 from adhoc.reporting.figures.by_step import success_by_step
 from adhoc.reporting.figures.drawing import draw_by_group, draw_by_step
-from adhoc.reporting.figures.style import COLOURS, MARKERS, STEP_COLOURS, policy_look, whisker
+from adhoc.reporting.figures.style import COLOURS, MARKERS, STEP_COLOURS, UNKNOWN, policy_look, whisker
 from adhoc.reporting.figures.writing import write_figures
 from adhoc.reporting.pairing import Contestant, Team
 from adhoc.reporting.paper_order import POLICIES
@@ -40,7 +41,7 @@ def records(policies=("irot", "cot"), steps=(0, 50), told=True):
 def test_success_by_step_has_every_policy_and_the_team_alone():
     ablation = failed("e0", "irot_no_evaluation", 0, "tiny", house_id="e0", difficulty="Easy")
     (found,) = success_by_step(make_report([*records(), ablation], intervals=True))
-    assert (found.team_name, found.steps, found.houses) == ("Heuristic based", (0, 50), 6)
+    assert (found.team_name, found.steps, found.houses) == ("Heuristic based", (0, 50), (6,))
     assert {it.name: {step: round(at.mean, 1) for step, at in it.points.items()} for it in found.series} == {
         "No ad hoc": {0: 16.7, 50: 16.7},
         "COT": {0: 0.0, 50: 0.0},
@@ -106,19 +107,76 @@ def test_figures_say_what_they_show():
         "Success by joining step; team: Heuristic based",
         "model: tiny",
         "N = 6; bars: 95% by bootstrap over 6 houses",
+        "?: interval not known: fewer than 5 houses, or all alike",
     ]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend == ["No ad hoc", "COT", "IROT"]
     (groups,) = success_by_group(records(), [DIFFICULTY])
-    title, *improvements = texts(draw_by_group(groups, "tiny"))
+    title, *shown = texts(draw_by_group(groups, "tiny"))
     assert "IROT by difficulty of the task" in title
-    assert improvements == ["+200", "+0", "n/a", "n/a"]
+    assert "lines: 95% over houses (Easy: 4, Difficult: 2)" in title.splitlines(), (
+        "not those of the whole run"
+    )
+    assert [it for it in shown if it != "?"] == ["+200%", "+0%", "n/a", "n/a"]
+
+
+def many(success, houses=6, of_newcomer=None):
+    """One easy task in each house; what the team does alone, and what it does with IRoT."""
+    found = []
+    for number in range(houses):
+        here = {"difficulty": "Easy", "house_id": f"h{number}"}
+        found.append((episode if success(number) else failed)(f"t{number}", newcomer=None, **here))
+        make = episode if (of_newcomer or success)(number) else failed
+        found.append(make(f"t{number}", "irot", 0, "tiny", policy_label="IROT", **here))
+    return found
+
+
+def drawn(mine):
+    """The figures, and of each axes how many question marks and whiskers it has."""
+    (steps,) = success_by_step(make_report(mine, intervals=True))
+    (groups,) = success_by_group(mine, [DIFFICULTY])
+    figures = draw_by_step(steps, "tiny"), draw_by_group(groups, "tiny")
+    counts = [
+        (
+            sum(text.get_text() == UNKNOWN for text in axes.texts),
+            sum(isinstance(it, ErrorbarContainer) for it in axes.containers),
+        )
+        for figure in figures
+        for axes in figure.axes
+    ]
+    return figures, counts
+
+
+def test_a_mean_of_which_nothing_is_known_has_a_question_mark_and_no_whisker():
+    """By step: IRoT; above: the team alone and IRoT; below: the gain. Each is one or the other."""
+    _, of_one_house = drawn(many(lambda number: True, houses=1))
+    assert of_one_house == [(1, 0), (2, 0), (1, 0)]
+    _, of_four = drawn(many(lambda number: number < 2, houses=4, of_newcomer=lambda number: number < 3))
+    assert of_four == [(1, 0), (2, 0), (1, 0)], "too few"
+    _, all_alike = drawn(many(lambda number: False, of_newcomer=lambda number: True))
+    assert all_alike == [(1, 0), (2, 0), (1, 0)]
+    (steps, groups), known = drawn(many(lambda number: number < 2, of_newcomer=lambda number: number < 4))
+    assert known == [(0, 1), (0, 2), (0, 1)]
+    assert "?" not in steps.get_suptitle() + groups.get_suptitle()
+
+
+@pytest.mark.parametrize(
+    ("done", "least"), [((2, 2), (-10.0, 10.0)), ((0, 6), (-10.0, 100.0)), ((6, 0), (-100.0, 10.0))]
+)
+def test_the_axis_of_gains_reaches_at_least_ten_points_and_around_all_that_is_shown(done, least):
+    alone, joined = done
+    (_, groups), _ = drawn(many(lambda number: number < alone, of_newcomer=lambda number: number < joined))
+    low, high = groups.axes[1].get_ylim()
+    assert low < least[0]
+    assert least[1] < high
+    assert high - low < 2.0 * (least[1] - least[0])
 
 
 def test_intervals_that_say_nothing_are_not_drawn():
     assert whisker(Interval(50.0, 40.0, 70.0)) == (10.0, 20.0)
     assert whisker(Interval(50.0, float("-inf"), float("inf"))) == (0.0, 0.0)
     assert whisker(Interval(50.0, 50.0, 50.0)) == (0.0, 0.0)
+    assert whisker(Interval(50.0, 40.0, 70.0, 4)) == (0.0, 0.0)
 
 
 def test_a_policy_looks_the_same_in_all_figures_and_like_no_other():

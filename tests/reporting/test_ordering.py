@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from adhoc.reporting.comparison_table import comparison_tables
 from adhoc.reporting.comparisons import families
 from adhoc.reporting.ordering import ordering_tables, orderings, told
+from adhoc.reporting.power_table import power_tables
 from adhoc.reporting.rendering.markdown import markdown_table
 from adhoc.statistics.intervals import Interval
 
@@ -66,11 +68,20 @@ def test_teams_and_joining_steps_are_ordered_each_for_itself():
         *joined("a", {0}),
     ]
     assert [(it.join_step, it.team) for it in orderings(families(records))] == [
-        (50, "LLM based"),
         (50, "Heuristic based"),
+        (50, "LLM based"),
         (100, "Heuristic based"),
     ]
     assert [sum(map(len, it.groups)) for it in ordering_tables(families(records))] == [2, 1]
+
+
+def test_teams_stand_in_the_same_order_in_all_tables():
+    """The records begin with the paper's last team."""
+    teams = ("llm", "mine", "learned", "heuristic")
+    records = [it for team in teams for it in (*alone(team=team), *joined("a", {0}, team=team))]
+    found = families(records)
+    for table in (*ordering_tables(found), *comparison_tables(found), *power_tables(found)):
+        assert [group[0].cells[0].text for group in table.groups] == ["heuristic", "learned", "llm", "mine"]
 
 
 def test_only_shared_scenarios_are_compared():
@@ -117,5 +128,7 @@ def test_how_a_number_is_told():
     assert told(Interval(12.34, -1.0, 20.0), True) == "+12.3 [-1.0, +20.0]"
     assert told(Interval(12.34, -0.04, 20.0), True, star=True) == "+12.3 [+0.0, +20.0]*"
     assert told(Interval(50.0, 40.0, 60.0), False) == "50.0 [40.0, 60.0]"
+    assert told(Interval(50.0, 40.0, 60.0, houses=5), False) == "50.0 [40.0, 60.0]"
+    assert told(Interval(50.0, 40.0, 60.0, houses=4), False) == "50.0 [?]"
     assert told(Interval(50.0, 50.0, 50.0), False) == "50.0 [?]"
     assert told(Interval(50.0, float("-inf"), float("inf")), False) == "50.0 [?]"

@@ -7,7 +7,7 @@ import re
 import pytest
 from test_report import episode, failed
 
-from adhoc.reporting.paper_layout import best_of, paper_tables
+from adhoc.reporting.paper_layout import best_of, paper_only, paper_tables
 from adhoc.reporting.paper_numbers import paper_numbers
 from adhoc.reporting.report import make_report
 
@@ -99,7 +99,7 @@ def test_intervals_stand_below_and_marks_behind():
     assert re.fullmatch(r"\[[\d.]+, [\d.]+\]", good.cells[2].below)
     assert "†" not in same.cells[2].text
     assert "." not in good.cells[4].below, "steps are whole"
-    assert [it[:10] for it in table.remarks] == ["below each", "*: success"]
+    assert [it[:10] for it in table.remarks] == ["below each", "†: the 95%", "*: success"]
     (plain,) = paper_tables(report, marked=marked)
     assert not plain.has_lines_below
     assert plain.groups[0][1].cells[2].text == "75.0 (n/a)"
@@ -158,6 +158,25 @@ def test_of_two_models_of_one_policy_each_gets_its_own_row_of_the_paper():
     }
     assert told["IRoT-LLM (gpt)"] == "26.3 (24.6)"
     assert told["IRoT-LLM (openai/gpt-3.5-turbo-1106)"] == "25.0 (18.5)"
+
+
+def test_a_stray_bracket_of_the_paper_is_marked_as_its_own():
+    names = [
+        row.cells[1].text for table in paper_only(paper_numbers()) for group in table.groups for row in group
+    ]
+    assert "GPL-LLM) [sic]" in names
+    assert "IRoT (GPT-3.5)" in names
+    assert sum("[sic]" in it for it in names) == 1
+
+
+def test_the_dagger_is_explained_where_it_stands():
+    many = [it for number in range(12) for it in _house(number)]
+    (table,) = paper_tables(make_report(many, intervals=True), intervals=True)
+    (told,) = (it for it in table.remarks if it.startswith("†"))
+    assert "the 95% interval of the paired difference from the team alone (not shown) excludes zero" in told
+    assert "not corrected for many comparisons" in told
+    (table,) = paper_tables(make_report(many[:27], intervals=True), intervals=True)
+    assert not any("†" in it for it in table.remarks), "nobody has one with nine houses"
 
 
 def test_a_joining_step_that_the_paper_does_not_have_has_no_row_of_it():

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from latex_structure import check_latex
 from rich.console import Console
 
+from adhoc.core.errors import ConfigurationError
 from adhoc.reporting.rendering.html import html_document, html_table
 from adhoc.reporting.rendering.latex import PAGE, latex_document, latex_table
 from adhoc.reporting.rendering.markdown import markdown_document, markdown_table
@@ -87,6 +88,20 @@ def test_a_long_table_is_several_floats():
     assert len(tables[0]) == 1 + PAGE - 9, "a group that fits stays in one piece"
     assert r"\caption{Long (part 2 of 3)}" in text
     assert len(set(re.findall(r"\\label\{(.*?)\}", text))) == len(tables) == 3
+
+
+def test_labels_of_two_reports_can_be_told_apart():
+    label = r"\\label\{(.*?)\}"
+    assert re.findall(label, latex_document(DOCUMENT)) == ["tab:joining-0"]
+    assert re.findall(label, latex_document(DOCUMENT, "llama")) == ["tab:llama-joining-0"]
+    with pytest.raises(ConfigurationError, match="label prefix 'a_b': takes letters, digits and dashes"):
+        latex_document(DOCUMENT, "a_b")
+
+
+def test_what_a_table_is_about_stands_once_in_its_title():
+    table = TABLE.about("language model: m")
+    assert table.title == "Joins at step 0; language model: m"
+    assert table.about("language model: m") is table
 
 
 @pytest.mark.parametrize("broken", [r"a & b \\", r"\begin{x}", "50%", r"\foo", "a_b", "$x", "{", "x^2"])

@@ -98,7 +98,7 @@ def test_two_models_of_one_policy_are_two_rows():
 def test_episodes_without_their_team_alone_are_left_out_and_counted():
     report = make_report([*RECORDS, episode("c", "Random", 50)])
     assert report.blocks[1].rows[0].scores.episodes == 2
-    assert any("1 episodes left out" in note for note in report.notes)
+    assert any("1 episode left out" in note for note in report.notes)
 
 
 def test_a_folder_of_the_team_alone():
@@ -152,22 +152,67 @@ def test_a_few_misunderstandings_are_a_note_and_no_warning():
 def test_several_versions_of_the_library_are_a_warning_that_names_them():
     records = [failed("a"), failed("a", "Random", 0, library_version="1.2")]
     assert make_report(records).warnings == (
-        "made by several versions of the library, which may differ in what they do: 0 (1 episodes), 1.2 (1 "
-        "episodes)",
+        "made by several versions of the library, which may differ in what they do: 0 (1 episode), 1.2 (1 "
+        "episode)",
     )
 
 
 def test_rows_over_other_tasks_than_their_neighbours_are_told():
     (warning,) = (it for it in make_report(RECORDS).warnings if "scenarios" in it)
     assert warning == (
-        "Heuristic based, joining at step 50: rows are not over the same 2 scenarios, so compare them with "
-        "the team alone and not with each other (Random 1)"
+        "Heuristic based, joining at step 50: rows are over different scenarios: compare within a row "
+        "only (Random 1 of 2 scenarios)"
     )
+
+
+OTHER = {"team": "llm", "team_label": "LLM based"}
+
+
+def test_teams_over_other_tasks_than_each_other_are_told():
+    records = [
+        *(failed(it) for it in "abc"),
+        *(failed(it, "Random", 0) for it in "abc"),
+        *(failed(it, episode_id=f"{it} other", **OTHER) for it in "cd"),
+        *(failed(it, "Random", 0, episode_id=f"{it} joined", **OTHER) for it in "cd"),
+    ]
+    assert make_report(records).warnings == (
+        "joining at step 0: rows are over different scenarios: compare within a row only "
+        "(Heuristic based 3, LLM based 2; 1 scenario shared by all)",
+    )
+    alone = [it for it in records if it["join_step"] is None]
+    assert make_report(alone).warnings[0].startswith("the team alone: rows are over different scenarios")
+    same = [it for it in records if it["task_id"] == "c"]
+    assert make_report(same).warnings == ()
+
+
+def won(task, first_help, policy="Random", **changes):
+    return episode(task, policy, 0, first_help=first_help, **changes)
+
+
+def test_success_without_an_object_that_the_newcomer_placed_is_told_with_its_count():
+    alone = [failed(it) for it in "abc"]
+    records = [*alone, won("a", None), won("b", None), failed("c", "Random", 0, first_help=3)]
+    assert [row.unaided for row in make_report(records).blocks[0].rows] == [0, 2]
+    (table,) = paper_tables(make_report(records))
+    assert table.remarks == (
+        "more success without any object that the newcomer placed in the tasks won (its presence, messages "
+        "or body changed what the team did): Random beside Heuristic based (2 tasks)",
+    )
+
+
+def test_success_that_the_newcomer_may_have_brought_is_no_remark():
+    alone = [failed("a"), failed("b"), episode("c")]
+    even = [won("a", None), failed("b", "Random", 0), failed("c", "Random", 0)]
+    helped = [won("a", None), won("b", 7), won("c", None)]
+    untold = [episode("a", "Random", 0)]
+    for joined in (even, helped, untold):
+        (table,) = paper_tables(make_report([*alone, *joined]))
+        assert table.remarks == ()
 
 
 def test_two_versions_of_a_task_are_told():
     records = [failed("a"), failed("a", scenario_hash="other", episode_id="again")]
-    assert make_report(records).warnings[0].startswith("1 tasks are there in several versions")
+    assert make_report(records).warnings[0].startswith("1 task is there in several versions")
 
 
 def test_a_team_with_a_model_is_told_of_too():

@@ -12,7 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from adhoc.core.errors import ConfigurationError
-from adhoc.statistics.intervals import Sample, clustered_interval, clustered_intervals, expanded_tail
+from adhoc.statistics.intervals import (
+    LEAST_HOUSES,
+    Sample,
+    clustered_interval,
+    clustered_intervals,
+    expanded_tail,
+)
 
 
 def test_a_constant_has_no_width():
@@ -55,7 +61,15 @@ def test_one_house_tells_nothing_of_others():
     assert not interval.excludes_zero
     assert not interval.tells_spread
     assert not clustered_interval([1.0, 1.0], ["a", "b"]).tells_spread
-    assert clustered_interval([1.0, 0.0], ["a", "b"]).tells_spread
+
+
+@pytest.mark.parametrize("houses", [2, LEAST_HOUSES - 1, LEAST_HOUSES])
+def test_few_houses_tell_no_spread(houses):
+    values = [float(it % 2) for it in range(houses)]
+    interval = clustered_interval(values, list(map(str, range(houses))))
+    assert interval.houses == houses
+    assert interval.low < interval.high
+    assert interval.tells_spread is (houses >= LEAST_HOUSES)
 
 
 def test_many_samples_get_what_each_gets_alone():

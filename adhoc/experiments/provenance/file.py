@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import hashlib
 import json
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from adhoc.core.errors import RecordError
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.records import writing
 
 FOLDER_NAME = "provenance"
@@ -34,6 +34,7 @@ NOT_DECIDING = (
 )
 """Keys of a configuration that decide where, how fast and how much is run, but not what becomes of an
 episode."""
+_WHOLE = "1/1"
 _PARTS = ("config", "code", "data")
 
 
@@ -93,6 +94,25 @@ def provenance_files(folder: str | Path) -> list[Path]:
     return sorted((Path(folder) / FOLDER_NAME).glob("*.json"))
 
 
+def unfinished_runs(folder: str | Path) -> list[str]:
+    """The runs of a folder whose latest session did not do all that it was to do, sorted; of a run in shards,
+    if one of them did not. Records of older releases may not tell, and count as finished."""
+    return [
+        path.stem for path in provenance_files(folder) if not _is_finished(read_provenance(folder, path.stem))
+    ]
+
+
+def _is_finished(facts: Provenance) -> bool:
+    latest: dict[str, Mapping[str, Any]] = {}
+    for session in sorted(facts.sessions, key=lambda it: str(it["started"])):
+        options = session.get("options")
+        shard = str(options.get("shard", _WHOLE)) if isinstance(options, Mapping) else _WHOLE
+        latest[shard] = session
+        if shard == _WHOLE:
+            latest = {shard: session}
+    return all(session.get("complete", True) is True for session in latest.values())
+
+
 def write_provenance(folder: str | Path, facts: Provenance) -> str:
     """Write the provenance of a run, and return the run's id.
 
@@ -137,12 +157,7 @@ def _write(path: Path, facts: Provenance) -> None:
     }
     text = json.dumps(content, indent=1, allow_nan=False) + "\n"
     with writing(path):
-        part = path.with_name(f"{path.name}.{os.getpid()}.part")
-        with open(part, "w", encoding="utf-8") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        part.replace(path)
+        write_whole(path, text.encode())
 
 
 def _checked(value: Any, path: Path) -> Provenance:

@@ -67,13 +67,15 @@ def begin_session(
     return write_provenance(folder, provenance_of(config, fingerprints, [_session(config, command)]))
 
 
-def end_session(folder: str | Path, run: str) -> None:
+def end_session(folder: str | Path, run: str, complete: bool = True) -> None:
     """Add to the latest session of a run when it ended, and which models answered under which names and when,
     as its ledger tells. Raises RecordError or LedgerError if a file is damaged."""
     there = read_provenance(folder, run)
     started = str(there.sessions[-1]["started"])
     models = asked_models(ledger_of(there.config, folder), since=started)
-    update_last_session(folder, run, {"ended": utc_now(), "models": models, "torch": torch_version()})
+    update_last_session(
+        folder, run, {"ended": utc_now(), "complete": complete, "models": models, "torch": torch_version()}
+    )
 
 
 def provenance_of(
@@ -104,6 +106,7 @@ def _session(config: Mapping[str, Any], command: Sequence[str] | None) -> dict[s
     return {
         "started": utc_now(),
         "ended": None,
+        "complete": False,
         "command": [*program, *map(publishable_argument, words[1:])],
         "options": publishable({name: config[name] for name in NOT_DECIDING if name in config}),
         "machine": machine_facts(),

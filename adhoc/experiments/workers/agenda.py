@@ -16,7 +16,7 @@ class Agenda:
 
     Args:
         units: All there are.
-        deaths: How many workers may die in one episode; the last of them ends the run.
+        deaths: So many workers that die in one episode are too many.
     """
 
     def __init__(self, units: Sequence[Unit], deaths: int) -> None:
@@ -26,6 +26,7 @@ class Agenda:
         self._held: dict[int, Unit] = {}
         self._episodes: dict[int, str] = {}
         self._dismissed: set[int] = set()
+        self._given_up: dict[str, str] = {}
 
     @property
     def open_units(self) -> int:
@@ -61,12 +62,14 @@ class Agenda:
         return self._episodes.get(worker, BEFORE_THE_FIRST_EPISODE)
 
     def lose(self, worker: int, how: str) -> None:
-        """The worker was killed. Raises WorkerError if too many were in the same episode, or one after the
-        other before they had begun any.
+        """The worker was killed. An episode in which too many were is given up (see `given_up`).
 
         Args:
             worker: Which.
-            how: What is known about its death, for the error text.
+            how: What is known about its death, for error texts.
+
+        Raises:
+            WorkerError: Too many were killed one after the other before they had begun any episode.
         """
         if self.is_dismissed(worker):
             return
@@ -76,8 +79,16 @@ class Agenda:
         if unit is not None:
             self._open.appendleft(unit)
         self._deaths[episode] += 1
-        if self._deaths[episode] >= self._most_deaths:
+        if self._deaths[episode] < self._most_deaths:
+            return
+        why = f"{self._deaths[episode]} worker processes died in it (last: {how})"
+        if episode == BEFORE_THE_FIRST_EPISODE:
             raise WorkerError(
-                f"episode {episode!r}: {self._deaths[episode]} worker processes died in it (last: {how}); "
-                "if memory is short, use fewer workers; the same command goes on where it stopped"
+                f"episode {episode!r}: {why}; if memory is short, use fewer workers; the same command goes "
+                "on where it stopped"
             )
+        self._given_up[episode] = why
+
+    def given_up(self, episode: str) -> str | None:
+        """Why an episode is not begun again; None if it may be."""
+        return self._given_up.get(episode)

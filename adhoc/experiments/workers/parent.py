@@ -9,7 +9,7 @@ from functools import partial
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
-from adhoc.core.errors import AdhocError, ConfigurationError, WorkerError
+from adhoc.core.errors import AdhocError, ConfigurationError, EpisodeError, WorkerError
 from adhoc.experiments.folder import RunFolder
 from adhoc.experiments.plan import Plan
 from adhoc.experiments.progress import Progress, RunSummary
@@ -37,7 +37,7 @@ from adhoc.llm.model import LanguageModel
 from adhoc.llm.together import PATIENCE_S
 
 DEATHS = 3
-"""So many workers that died in one episode end the run."""
+"""So many workers that died in one episode make it a failed one."""
 LOOK_S = 0.5
 """Seconds after which the parent looks for trouble in its own threads, whether or not a worker asks."""
 
@@ -73,7 +73,7 @@ def run_in_workers(
 
     Raises:
         ConfigurationError: A number is out of range.
-        WorkerError: A worker ended by itself, or `DEATHS` of them were killed in one episode.
+        WorkerError: A worker ended by itself, or `DEATHS` of them were killed before any episode.
         AdhocError: Whatever `run_plan` raises; the other workers are stopped.
     """
     if workers < 1 or calls < 1:
@@ -168,7 +168,8 @@ class _Parent:
             case NextUnit():
                 return self._agenda.next(worker)
             case FindRecord(key):
-                return self._folder.find(key)
+                why = self._agenda.given_up(key.id)
+                return self._folder.find(key) if why is None else Raised.of(EpisodeError(f"{key.id}: {why}"))
             case AddRecord(key, record, True):
                 self._folder.add(key, record)
                 self._progress.finished(record)

@@ -47,6 +47,10 @@ class Episode {
     return join === null ? "Team alone" : `With ${label}`;
   }
 
+  get shortTitle() {
+    return this.title.replace(/^With /, "");
+  }
+
   at(step) {
     return clamp(step, 0, this.steps);
   }

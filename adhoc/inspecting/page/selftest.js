@@ -24,6 +24,7 @@ async function selfTest(state) {
   found.played = state.step;
   document.body.dispatchEvent(new KeyboardEvent("keydown", { key: "End", bubbles: true }));
   found.keyboard = state.step === state.last;
+  found.cutTitles = [...document.querySelectorAll(".map strong")].filter((it) => it.scrollWidth > it.clientWidth).map((it) => it.textContent);
   found.panels = {};
   for (const map of state.maps) {
     state.look(map);

@@ -53,7 +53,7 @@ class Timeline {
     context.textAlign = "left";
     context.textBaseline = "middle";
     context.fillStyle = "#24292f";
-    context.fillText(clip(context, episode.title, GUTTER - 26), 12, middle);
+    context.fillText(clip(context, episode.title, episode.shortTitle, GUTTER - 26), 12, middle);
     context.fillStyle = "#dfe5ec";
     context.fillRect(this.place(0), middle - 3, this.place(episode.steps) - this.place(0), 6);
     context.fillStyle = episode.record.success ? colours.placed : "#57606a";
@@ -130,8 +130,10 @@ class Timeline {
   }
 }
 
-function clip(context, text, width) {
-  let short = text;
+// The text if there is room, else its shorter form, else what fits of that.
+function clip(context, text, shorter, width) {
+  if (context.measureText(text).width <= width) return text;
+  let short = shorter;
   while (short.length > 3 && context.measureText(short).width > width) short = `${short.slice(0, -2)}\u2026`;
   return short;
 }

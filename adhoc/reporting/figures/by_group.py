@@ -56,7 +56,8 @@ class SuccessByGroup:
     steps: tuple[int, ...]
     alone: Mapping[str, Interval]
     points: Mapping[tuple[str, int], GroupPoint]
-    houses: int
+    houses: Mapping[str, int]
+    """Those in which the tasks of a group are: as many as its intervals come from at most."""
 
 
 def _ability(record: Record) -> str | None:
@@ -132,7 +133,7 @@ def _grouped(
             key: GroupPoint(success, gain, success.mean - gain.mean, len(some))
             for (key, some), success, gain in zip(parts.items(), successes, gains)
         },
-        len({pair.joined["house_id"] for pair in mine}),
+        {group: len({it["house_id"] for it in alone[group]}) for group in groups},
     )
 
 

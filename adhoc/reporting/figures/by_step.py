@@ -32,7 +32,8 @@ class SuccessByStep:
     series: tuple[Series, ...]
     episodes: tuple[int, ...]
     """Of all rows, each number once."""
-    houses: int
+    houses: tuple[int, ...]
+    """Of all intervals, each number once."""
 
 
 def success_by_step(report: Report) -> Iterator[SuccessByStep]:
@@ -43,8 +44,7 @@ def success_by_step(report: Report) -> Iterator[SuccessByStep]:
     teams = {row.team: row.team_name for block in report.blocks for row in block.rows if row.who is not None}
     for team, name in teams.items():
         found: dict[tuple[Contestant | None, str], dict[int, Interval]] = {}
-        episodes: set[int] = set()
-        houses = 0
+        episodes, houses = set[int](), set[int]()
         for block in report.blocks:
             rows = [row for row in block.rows if row.team == team and block.join_step is not None]
             for row in rows:
@@ -53,8 +53,8 @@ def success_by_step(report: Report) -> Iterator[SuccessByStep]:
                 points = found.setdefault((row.who, row.ad_hoc), {})
                 points[block.join_step or 0] = row.uncertainty.values["success"]
                 episodes.add(row.scores.episodes)
-                houses = max(houses, row.uncertainty.houses)
+                houses.add(row.uncertainty.houses)
         series = tuple(Series(who, label, points) for (who, label), points in found.items())
         steps = tuple(sorted({step for it in series for step in it.points}))
         if len(series) > 1:
-            yield SuccessByStep(team, name, steps, series, tuple(sorted(episodes)), houses)
+            yield SuccessByStep(team, name, steps, series, tuple(sorted(episodes)), tuple(sorted(houses)))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -13,18 +13,21 @@ from adhoc.reporting.figures.by_step import Series, SuccessByStep
 from adhoc.reporting.figures.style import (
     ALONE_COLOUR,
     COLUMN_WIDTH,
+    INK,
     STEP_COLOURS,
+    UNKNOWN,
     policy_look,
     put_title,
+    put_unknown,
     tidy,
     whisker,
 )
-from adhoc.statistics.intervals import LEVEL, Interval
+from adhoc.statistics.intervals import LEAST_HOUSES, LEVEL, Interval
 
 ROOM = 0.86
 """The share of the room of a joining step or a group that is drawn in."""
-SHORT = 3
-"""Characters of a number that has room beside others."""
+LEAST_POINTS = 10.0
+"""So far the axis of gains reaches at least; without that, noise fills it where nothing differs."""
 
 
 def draw_by_step(found: SuccessByStep, model: str) -> Figure:
@@ -54,14 +57,15 @@ def draw_by_step(found: SuccessByStep, model: str) -> Figure:
         f"Success by joining step; team: {found.team_name}",
         f"model: {model}",
         f"N = {' or '.join(map(str, found.episodes))}; bars: {LEVEL:.0%} by bootstrap over "
-        f"{found.houses} houses",
+        f"{' or '.join(map(str, found.houses))} {'house' if found.houses == (1,) else 'houses'}",
+        *_unknown(it for series in policies for it in series.points.values()),
     )
     return figure
 
 
 def draw_by_group(found: SuccessByGroup, model: str) -> Figure:
     """Above, success of the team alone and with the newcomer; below, how many points that is more and, as
-    numbers, percent of the team's own."""
+    numbers with a percent sign, how much of the team's own."""
     figure = _figure(3.35)
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(1.25, 1.0))
     width = ROOM / (1 + len(found.steps))
@@ -89,10 +93,11 @@ def draw_by_group(found: SuccessByGroup, model: str) -> Figure:
     upper.set_ylabel("%Suc")
     lower.set_ylabel("points over\nthe team alone")
     upper.set_ylim(0.0, _top([*found.alone.values(), *(it.success for it in found.points.values())]))
-    lower.margins(y=0.24)
+    lower.set_ylim(*_around_zero([it.gain for it in found.points.values()]))
     for axes in (upper, lower):
         tidy(axes)
     figure.align_ylabels()
+    houses = ", ".join(f"{group}: {number}" for group, number in found.houses.items())
     handles, names = upper.get_legend_handles_labels()
     shown = dict(zip(names, handles))
     figure.legend(
@@ -103,7 +108,11 @@ def draw_by_group(found: SuccessByGroup, model: str) -> Figure:
         figure,
         f"{found.policy_name} {found.grouping.title}; team: {found.team_name}",
         f"model: {model}",
-        f"lines: {LEVEL:.0%} over {found.houses} houses; numbers: percent of the team's own",
+        f"lines: {LEVEL:.0%} over houses ({houses})",
+        "numbers with %: of the team's own success",
+        *_unknown(
+            [*found.alone.values(), *(one for it in found.points.values() for one in (it.success, it.gain))]
+        ),
     )
     return figure
 
@@ -120,47 +129,64 @@ def _draw_policy(axes: Axes, series: Series, steps: Sequence[int], shift: float,
     shown = [
         (place + shift, series.points[step]) for place, step in enumerate(steps) if step in series.points
     ]
-    below, above = zip(*(whisker(it) for _, it in shown))
-    axes.errorbar(
+    axes.plot(
         [at for at, _ in shown],
         [it.mean for _, it in shown],
-        yerr=(below, above),
-        color=colour,
         marker=marker,
         markersize=3.6,
-        linestyle="none",
-        elinewidth=0.8,
         label=series.name,
+        color=colour,
+        linestyle="none",
     )
+    for at, interval in shown:
+        _draw_whisker(axes, at, interval, colour)
+        put_unknown(axes, at, interval, (0.0, 6.0))
 
 
 def _draw_bar(
     axes: Axes, at: float, interval: Interval, width: float, colour: str, place: int, name: str
 ) -> None:
-    below, above = whisker(interval)
     axes.bar(at, interval.mean, 0.92 * width, color=colour, label=name if place == 0 else None)
-    axes.errorbar(at, interval.mean, yerr=([below], [above]), color="#1b1f24", elinewidth=0.8, capsize=1.6)
+    _draw_whisker(axes, at, interval, INK, capsize=1.6)
+    put_unknown(axes, at, interval, (0.0, 5.0))
 
 
 def _draw_gain(axes: Axes, at: float, point: GroupPoint, colour: str, raised: bool) -> None:
-    """A long number beside a long one stands higher, if `raised`, since a column has no room for both."""
-    below, above = whisker(point.gain)
-    axes.errorbar(
+    """The numbers stand above all whiskers, every other one higher (`raised`), since a column has no room
+    for two side by side."""
+    _draw_whisker(axes, at, point.gain, "#3c434b")
+    axes.plot(
         at,
         point.gain.mean,
-        yerr=([below], [above]),
         color=colour,
-        ecolor="#3c434b",
-        elinewidth=1.0,
         marker="o",
         markersize=3.8,
-        markeredgecolor="#1b1f24",
+        markeredgecolor=INK,
         markeredgewidth=0.4,
     )
-    told = "n/a" if point.improvement is None else f"{point.improvement:+.0f}"
-    offset = (0.0, 8.0 if raised and len(told) > SHORT else 1.5)
-    place = (at, point.gain.mean + above)
-    axes.annotate(told, place, offset, textcoords="offset points", ha="center", va="bottom", fontsize=6.0)
+    put_unknown(axes, at, point.gain, (0.0, -7.0))
+    told = "n/a" if point.improvement is None else f"{point.improvement:+.0f}%"
+    place = (at, 0.94 if raised else 0.82)
+    axes.annotate(told, place, xycoords=axes.get_xaxis_transform(), ha="center", fontsize=6.0)
+
+
+def _draw_whisker(axes: Axes, at: float, interval: Interval, colour: str, capsize: float = 0.0) -> None:
+    if interval.tells_spread:
+        below, above = whisker(interval)
+        axes.errorbar(
+            at,
+            interval.mean,
+            yerr=([below], [above]),
+            fmt="none",
+            ecolor=colour,
+            elinewidth=0.8,
+            capsize=capsize,
+        )
+
+
+def _unknown(intervals: Iterable[Interval]) -> Iterator[str]:
+    if not all(it.tells_spread for it in intervals):
+        yield f"{UNKNOWN}: interval not known: fewer than {LEAST_HOUSES} houses, or all alike"
 
 
 def _episodes(found: SuccessByGroup, group: str) -> str:
@@ -169,5 +195,15 @@ def _episodes(found: SuccessByGroup, group: str) -> str:
 
 
 def _top(intervals: Iterable[Interval]) -> float:
-    highest = max(it.mean + whisker(it)[1] for it in intervals)
-    return max(10.0, min(104.0, 1.08 * highest))
+    shown = list(intervals)
+    highest = max(it.mean + whisker(it)[1] for it in shown)
+    room = 1.08 if all(it.tells_spread for it in shown) else 1.16
+    return max(10.0, min(100.0 * room - 4.0, room * highest))
+
+
+def _around_zero(gains: Sequence[Interval]) -> tuple[float, float]:
+    """Limits that hold all gains with their numbers, and never less than `LEAST_POINTS` up and down."""
+    reaches = [(it, *whisker(it)) for it in gains]
+    low = min(-LEAST_POINTS, *(it.mean - below for it, below, _ in reaches))
+    high = max(LEAST_POINTS, *(it.mean + above for it, _, above in reaches))
+    return low - 0.2 * (high - low), high + 0.42 * (high - low)

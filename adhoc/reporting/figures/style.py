@@ -21,6 +21,7 @@ COLOURS = ("#000000", "#56B4E9", "#E69F00", "#8C6D46", "#009E73", "#CC79A7", "#0
 paper swallows: one for each of `POLICIES`, by which a policy has the same colour in all figures."""
 MARKERS = ("s", "o", "^", "D", "v", "<", ">", "P")
 ALONE_COLOUR = "#8a8f98"
+INK = "#1b1f24"
 STEP_COLOURS = ("#2f74b5", "#7fb3dc", "#cfe3f3", "#ecf3fa")
 """Dark to light, so that they differ in grey as well; none so dark that an interval on it is lost."""
 CHARACTERS_OF_TITLE = 66
@@ -67,8 +68,29 @@ def tidy(axes: Axes) -> None:
     axes.tick_params(length=2.5)
 
 
+UNKNOWN = "?"
+"""Stands beside a mean whose interval is not known; see `Interval.tells_spread`."""
+
+
+def put_unknown(axes: Axes, at: float, interval: Interval, offset: tuple[float, float]) -> None:
+    """A question mark beside what has no whisker since nothing is known of how far it can be trusted: a mean
+    without either would look certain."""
+    if not interval.tells_spread:
+        axes.annotate(
+            UNKNOWN,
+            (at, interval.mean),
+            offset,
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=6.0,
+            color=INK,
+        )
+
+
 def whisker(interval: Interval) -> tuple[float, float]:
-    """How far the interval reaches below and above its mean; nowhere if the episodes do not tell."""
+    """How far the interval reaches below and above its mean; nowhere if the episodes do not tell, where no
+    whisker is drawn."""
     if not interval.tells_spread:
         return (0.0, 0.0)
     return (max(0.0, interval.mean - interval.low), max(0.0, interval.high - interval.mean))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
+from adhoc.core.errors import ConfigurationError
 from adhoc.reporting.table import Cell, Document, Row, Table, shown_once
 
 PAGE = 54
@@ -37,21 +38,39 @@ _MARKS = {
     "≤": r"$\leq$",
 }
 """What TeX reads as commands, and what its fonts lack."""
+_LABEL = re.compile(r"[A-Za-z0-9-]*")
 _MINUS = re.compile(r"(?<![\w.)\]])-(?=\d)")
 
 
-def latex_document(document: Document) -> str:
-    """All tables, one float each, with the remarks as comments and below the last."""
+def latex_document(document: Document, label_prefix: str = "") -> str:
+    """All tables, one float each, with the remarks as comments and below the last.
+
+    Args:
+        document: What to write.
+        label_prefix: Goes before the name of each table in its label, so that a paper can read in several
+            reports: `tab:PREFIX-joining-0`; letters, digits and dashes.
+
+    Raises:
+        ConfigurationError: a prefix of anything else.
+    """
+    check_label_prefix(label_prefix)
     told = [f"% {_one_line(it)}" for it in (document.title, *document.warnings, *document.notes)]
     head = ["% In the preamble: \\usepackage{booktabs}", *told]
-    return "\n".join(head) + "\n\n" + "\n".join(map(latex_table, document.tables))
+    return "\n".join(head) + "\n\n" + "\n".join(latex_table(it, label_prefix) for it in document.tables)
 
 
-def latex_table(table: Table) -> str:
+def latex_table(table: Table, label_prefix: str = "") -> str:
     """One table, as a float over both columns of a two-column page; as several where it is longer than a
     page."""
     parts = list(_pages(table))
-    return "\n".join(_float(table, lines, number, len(parts)) for number, lines in enumerate(parts, start=1))
+    label = f"{label_prefix}-{table.key}" if label_prefix else table.key
+    return "\n".join(_float(table, label, lines, at, len(parts)) for at, lines in enumerate(parts, start=1))
+
+
+def check_label_prefix(label_prefix: str) -> None:
+    """Raise ConfigurationError for what is no part of a label."""
+    if not _LABEL.fullmatch(label_prefix):
+        raise ConfigurationError(f"label prefix {label_prefix!r}: takes letters, digits and dashes alone")
 
 
 def latex_text(text: str) -> str:
@@ -60,14 +79,14 @@ def latex_text(text: str) -> str:
     return marked.replace("\0", "$-$")
 
 
-def _float(table: Table, lines: Sequence[str], number: int, of: int) -> str:
+def _float(table: Table, label: str, lines: Sequence[str], number: int, of: int) -> str:
     part = f" (part {number} of {of})" if of > 1 else ""
     is_wide = len(table.columns) > MANY_COLUMNS
     made = [
         r"\begin{table*}[t]",
         r"\centering",
         rf"\caption{{{latex_text(table.title + part)}}}",
-        rf"\label{{tab:{table.key}{f'-{number}' if number > 1 else ''}}}",
+        rf"\label{{tab:{label}{f'-{number}' if number > 1 else ''}}}",
         *([r"\scriptsize", r"\setlength{\tabcolsep}{3pt}"] if is_wide else [r"\small"]),
         rf"\begin{{tabular}}{{@{{}}{''.join(_column(table, it) for it in range(len(table.columns)))}@{{}}}}",
         r"\toprule",
