@@ -10,7 +10,7 @@ export NUMBA_CACHE_DIR := $(CURDIR)/.venv/numba-cache
 demo: .venv/installed
 	$(BIN)/adhoc run -m policy=none,idle,heuristic,irot join_step=0,50 benchmark=demo out=demo
 	$(BIN)/adhoc report demo --markdown demo/table.md --html demo/report.html
-	$(BIN)/adhoc inspect demo corridor-s0--heuristic--irot-offline--t50 --out demo/episode.html
+	$(BIN)/adhoc inspect demo corridor-s0--heuristic--irot-offline--t0 --out demo/episode.html
 
 # The paper's tables and its ablation, complete, on 30 tasks with the offline model: about half an hour.
 tables: .venv/installed
