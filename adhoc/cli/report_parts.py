@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 
+from adhoc.core.counting import counted
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile
 from adhoc.experiments.failures import FAILURES_NAME, FailureFile
@@ -80,7 +81,7 @@ class Results:
             self._report.title,
             tuple(tables),
             (*(self._damage if for_file else ()), *self._warnings, *self._report.warnings),
-            (*self._report.notes, *self._figure_notes()),
+            (*self._report.notes, *self._figure_notes(for_file)),
             self._pictures,
         )
 
@@ -93,15 +94,16 @@ class Results:
 
         return tuple(write_figures(self._report, self._records, self._options.figures))
 
-    def _figure_notes(self) -> Iterator[str]:
+    def _figure_notes(self, for_file: bool) -> Iterator[str]:
         if self._options.figures is None:
             return
-        yield f"{len(self._pictures)} figures, as SVG and PNG, in {self._options.figures}"
+        if not for_file:
+            yield f"{counted(len(self._pictures), 'figure')}, as SVG and PNG, in {self._options.figures}"
         untold = sum(it["join_step"] is not None and it.get("newcomer") is None for it in self._records)
         if untold:
             yield (
-                f"{untold} episodes do not tell the ad hoc robot's ability (they were recorded by an "
-                "earlier version) and are not in the figures by it"
+                f"{counted(untold, 'episode')} recorded by a version that did not tell the ad hoc robot's "
+                "ability, not in the figures by it"
             )
 
     def _statistics(self, every_pair: bool) -> Iterator[Table]:
@@ -134,19 +136,19 @@ def _unrecorded(folders: Sequence[str | Path], recorded: set[str]) -> Iterator[s
         unfinished = unfinished_runs(folder)
         if unfinished:
             yield (
-                f"{folder}: {len(unfinished)} of its runs did not finish, so rows may lack episodes; the "
+                f"{folder}: {counted(len(unfinished), 'run')} did not finish, so rows may lack episodes; the "
                 "same command goes on, and adhoc verify says what is missing"
             )
         failed = len(FailureFile(folder).failures)
         if failed:
             yield (
-                f"{Path(folder) / FAILURES_NAME}: {failed} episodes failed with an error and are in no row; "
-                "a row without its hardest episodes is no fair one"
+                f"{Path(folder) / FAILURES_NAME}: {counted(failed, 'episode')} failed with an error, in no "
+                "row; a row without its hardest episodes is no fair one"
             )
         cut = sum(it["episode_id"] not in recorded for it in RecordFile(folder, UNFINISHED_NAME).read())
         if cut:
             path = Path(folder) / UNFINISHED_NAME
-            yield f"{path}: {cut} episodes were cut short by a budget and are in no row"
+            yield f"{path}: {counted(cut, 'episode')} cut short by a budget, in no row"
 
 
 def _chosen(

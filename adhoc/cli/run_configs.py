@@ -16,6 +16,7 @@ from adhoc.cli.executing import execute
 from adhoc.cli.person import asks_person
 from adhoc.cli.shards import folder_of, shard_of
 from adhoc.cli.table_console import table_console
+from adhoc.core.counting import counted
 from adhoc.experiments.console_progress import ConsoleProgress
 from adhoc.experiments.failures import Tolerance
 from adhoc.experiments.folder import RunFolder
@@ -105,6 +106,6 @@ def _tell_end(configs: Sequence[DictConfig], folder: RunFolder) -> None:
         sys.stdout.write(f"look into an episode: adhoc inspect {folder.path} EPISODE\n")
     if folder.failures:
         sys.stderr.write(
-            f"adhoc run: {len(folder.failures)} episodes failed and are not recorded; what went wrong is in "
-            f"{folder.path / 'failures.jsonl'}; the same command runs them again\n"
+            f"adhoc run: {counted(len(folder.failures), 'episode')} failed, not recorded; what went wrong is "
+            f"in {folder.path / 'failures.jsonl'}; the same command runs them again\n"
         )

@@ -13,6 +13,7 @@ from adhoc.cli.hydra_run import make_importable
 from adhoc.cli.verify_plan import RebuiltRun
 from adhoc.cli.verify_replay import chosen, replay_findings
 from adhoc.cli.verify_tables import table_findings
+from adhoc.core.counting import counted
 from adhoc.core.errors import ConfigurationError
 from adhoc.experiments.provenance.file import Provenance, read_provenance
 from adhoc.experiments.verifying.folder import verify_folder
@@ -116,8 +117,8 @@ class _Runs:
 
 
 def _told(records: int, faults: int, runs: int) -> str:
-    verdict = "no faults" if not faults else "1 fault" if faults == 1 else f"{faults} faults"
-    return f"{records} records of {runs} runs checked, {verdict}"
+    verdict = counted(faults, "fault") if faults else "no faults"
+    return f"{counted(records, 'record')} of {counted(runs, 'run')} checked, {verdict}"
 
 
 def _say(text: str) -> None:

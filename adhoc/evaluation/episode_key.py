@@ -93,21 +93,6 @@ class EpisodeKey:
         return self.kind.id_in(self.scenario.id)
 
     @property
-    def group(self) -> tuple[str, str, str | None]:
-        """See `EpisodeKind`."""
-        return self.kind.group
-
-    @property
-    def settings(self) -> Mapping[str, Any]:
-        """See `EpisodeKind`."""
-        return self.kind.settings
-
-    @property
-    def config_hash(self) -> str:
-        """See `EpisodeKind`."""
-        return self.kind.config_hash
-
-    @property
     def scenario_id(self) -> str:
         """The id of the scenario."""
         return self.scenario.id

@@ -84,7 +84,7 @@ def make_record(
         "history_hash": result.history_hash,
         "history": pack_history(result.history) if kind.newcomer is None else None,
         "scenario_hash": scenario.content_hash(),
-        "config_hash": key.config_hash,
+        "config_hash": kind.config_hash,
         "failed_share": kind.conditions.failed_share.value,
         "library_version": __version__,
         "run": kind.run,

@@ -9,15 +9,20 @@ from rich.live import Live
 from rich.progress_bar import ProgressBar
 from rich.text import Text
 
+from adhoc.core.counting import counted
 from adhoc.evaluation.records import Record
 from adhoc.experiments.failures import Failure
 from adhoc.experiments.plan import Plan
 from adhoc.experiments.tally import Tally
 
+PARTS = 10
+"""So often success so far is told where nothing is live, but not before so many episodes."""
+
 
 class ConsoleProgress:
-    """Prints the plan, one line for each episode that ends, and success at the end; in a terminal also what
-    is running, how fast, for how long still, for how much, and with what success so far.
+    """Prints the plan, one line for each episode that ends, and success at the end. In a terminal it shows
+    what is running, how fast, for how long still, for how much, and with what success so far; elsewhere
+    the lines tell that, and success now and then.
 
     Use as a context manager; see `progress.Progress` for the methods.
 
@@ -50,7 +55,8 @@ class ConsoleProgress:
         self._tally = Tally(plan)
         missing = ", ".join(f"{label} {count}" for label, count in plan.missing.items() if count)
         self._print(
-            f"{self._tally.total} episodes in {plan.scenarios} scenarios; recorded: {plan.done}; "
+            f"{counted(self._tally.total, 'episode')} in {counted(plan.scenarios, 'scenario')}; "
+            f"recorded: {plan.done}; "
             f"to run: {plan.to_run}" + (f" ({missing})" if missing else ""),
             "bold",
         )
@@ -85,6 +91,8 @@ class ConsoleProgress:
         where = str(self._tally) if not self._live.is_started else f"{self._done:>3}"
         self._print(f"{where}  {line}", style)
         self._show()
+        if self._tally is not None and not self._live.is_started and self._tally.is_at_part(PARTS):
+            self._print(f"success so far: {', '.join(self._tally.success())}", "dim")
 
     @property
     def _done(self) -> int:

@@ -14,12 +14,8 @@ from adhoc.evaluation.settings_files import differing, read_settings, settings_p
 from adhoc.experiments.failures import Failure, FailureFile, Tolerance
 
 
-class NamedKey(Protocol):
-    """An episode by its name and configuration; see `plan.Planned`, which is one."""
-
-    @property
-    def id(self) -> str:
-        """Unique in a run folder."""
+class FolderKind(Protocol):
+    """The configuration of an episode; see `episode_key.EpisodeKind`, which is one."""
 
     @property
     def group(self) -> tuple[str, str, str | None]:
@@ -34,8 +30,16 @@ class NamedKey(Protocol):
         """A hash of `settings`."""
 
 
-class FolderKey(NamedKey, Protocol):
+class FolderKey(Protocol):
     """What a run folder knows an episode by; see `episode_key.EpisodeKey`, which is one."""
+
+    @property
+    def id(self) -> str:
+        """Unique in a run folder."""
+
+    @property
+    def kind(self) -> FolderKind:
+        """Its configuration."""
 
     @property
     def scenario_id(self) -> str:
@@ -109,18 +113,18 @@ class RunFolder:
         """A run of so many episodes begins."""
         self._expected, self._failed = episodes, 0
 
-    def recorded(self, key: NamedKey) -> Record | None:
+    def recorded(self, episode_id: str, kind: FolderKind) -> Record | None:
         """The record of an episode that was run before, or None; its scenario is not looked at.
 
         Raises RecordError if the folder belongs to another configuration.
         """
-        record = self._records.get(key.id)
-        group_hash = self._hashes.get(key.group, key.config_hash)
+        record = self._records.get(episode_id)
+        group_hash = self._hashes.get(kind.group, kind.config_hash)
         recorded = group_hash if record is None else str(record["config_hash"])
-        if recorded != key.config_hash:
+        if recorded != kind.config_hash:
             raise RecordError(
-                f"{self._file.path}: was made with another configuration of team={key.group[0]} "
-                f"policy={key.group[1]} ({self._differences(recorded, key)}); "
+                f"{self._file.path}: was made with another configuration of team={kind.group[0]} "
+                f"policy={kind.group[1]} ({self._differences(recorded, kind)}); "
                 "use another folder (out=...) or the old configuration"
             )
         return record
@@ -130,7 +134,7 @@ class RunFolder:
 
         Raises RecordError if the folder belongs to another configuration or to other scenarios.
         """
-        record = self.recorded(key)
+        record = self.recorded(key.id, key.kind)
         if record is not None and record["scenario_hash"] != key.scenario_hash:
             raise RecordError(
                 f"{self._file.path}: episode {key.id!r} was run in another version of scenario "
@@ -142,10 +146,10 @@ class RunFolder:
         """Store the record of an episode, and the settings behind its `config_hash`."""
         if key.id in self._records:
             raise RecordError(f"{self._file.path}: episode {key.id!r} is there already; it was run twice")
-        self._keep_settings(key)
+        self._keep_settings(key.kind)
         self._file.append(record)
         self._records[key.id] = record
-        self._hashes[key.group] = key.config_hash
+        self._hashes[key.kind.group] = key.kind.config_hash
         if self._unfinished.pop(key.id, None) is not None:
             self._unfinished_file.replace(list(self._unfinished.values()))
         self._failures.drop(key.id)
@@ -163,28 +167,25 @@ class RunFolder:
 
     def add_unfinished(self, key: FolderKey, record: Record) -> None:
         """Keep what became of an episode that has to be run again, in place of what was kept of it before."""
-        self._keep_settings(key)
+        self._keep_settings(key.kind)
         self._unfinished[key.id] = record
         self._unfinished_file.replace(list(self._unfinished.values()))
 
-    def _keep_settings(self, key: FolderKey) -> None:
-        if key.config_hash in self._kept:
+    def _keep_settings(self, kind: FolderKind) -> None:
+        if kind.config_hash in self._kept:
             return
-        path = self._settings_path(key.config_hash)
-        content = (json.dumps(key.settings, indent=2, sort_keys=True) + "\n").encode()
+        path = settings_path(self.path, kind.config_hash)
+        content = (json.dumps(kind.settings, indent=2, sort_keys=True) + "\n").encode()
         with writing(path):
             if not path.exists() or path.read_bytes() != content:
                 write_whole(path, content)
-        self._kept.add(key.config_hash)
+        self._kept.add(kind.config_hash)
 
-    def _settings_path(self, config_hash: str) -> Path:
-        return settings_path(self.path, config_hash)
-
-    def _differences(self, recorded: str, key: NamedKey) -> str:
+    def _differences(self, recorded: str, kind: FolderKind) -> str:
         before = read_settings(self.path).get(recorded)
         if before is None:
-            return f"config_hash {recorded} there, {key.config_hash} here"
-        return differing(before, key.settings)
+            return f"config_hash {recorded} there, {kind.config_hash} here"
+        return differing(before, kind.settings)
 
 
 def _plainly(most: float | None) -> str:
@@ -192,5 +193,5 @@ def _plainly(most: float | None) -> str:
 
 
 def group_of(record: Record) -> tuple[str, str, str | None]:
-    """See `NamedKey.group`."""
+    """See `FolderKind.group`."""
     return (record["team"], record["policy"], record["model"])

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import stream
@@ -25,29 +24,6 @@ class Unit:
     """Its place in the list of comparisons."""
     position: int
     """The place of the scenario in the comparison's list."""
-
-
-@dataclass(frozen=True)
-class Planned:
-    """An episode by its name; its scenario is not loaded for it."""
-
-    id: str
-    kind: EpisodeKind
-
-    @property
-    def group(self) -> tuple[str, str, str | None]:
-        """See `EpisodeKind`."""
-        return self.kind.group
-
-    @property
-    def settings(self) -> Mapping[str, Any]:
-        """See `EpisodeKind`."""
-        return self.kind.settings
-
-    @property
-    def config_hash(self) -> str:
-        """See `EpisodeKind`."""
-        return self.kind.config_hash
 
 
 @dataclass(frozen=True)
@@ -122,7 +98,7 @@ def make_plan(
     count, checked, open_units = _Count(), set[int](), []
     for unit in mine:
         comparison, scenario_id = comparisons[unit.comparison], names[unit.comparison][unit.position]
-        there = [folder.recorded(Planned(kind.id_in(scenario_id), kind)) for kind in comparison.kinds]
+        there = [folder.recorded(kind.id_in(scenario_id), kind) for kind in comparison.kinds]
         for kind, record in zip(comparison.kinds, there):
             count.add(kind, record)
         if None in there:

@@ -48,6 +48,13 @@ class Tally:
         """An episode failed."""
         self.failed += 1
 
+    def is_at_part(self, parts: int) -> bool:
+        """Whether one of so many equal parts of this run has just ended, but not the last; a part has so many
+        episodes at least."""
+        ended = self.run + self.failed
+        size = max(parts, -(-self._plan.to_run // parts))
+        return self.run > 0 and ended % size == 0 and ended < self._plan.to_run
+
     @property
     def rate(self) -> float | None:
         """Episodes a second; None before the first."""

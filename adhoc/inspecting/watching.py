@@ -54,7 +54,7 @@ def check_same_task(key: EpisodeKey, record: Record) -> None:
         raise EpisodeError(f"{episode_id}: its configuration makes episode {key.id!r} of it")
     for field, now, why in (
         ("scenario_hash", key.scenario_hash, "house, objects or robots of its scenario differ"),
-        ("config_hash", key.config_hash, "the settings of team, policy, task, world or model differ"),
+        ("config_hash", key.kind.config_hash, "the settings of team, policy, task, world or model differ"),
     ):
         if now != record[field]:
             raise EpisodeError(

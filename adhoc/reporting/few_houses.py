@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from adhoc.reporting.counting import counted
+from adhoc.core.counting import counted
 from adhoc.statistics.intervals import LEAST_HOUSES
 
 FEW_HOUSES = 10

@@ -15,13 +15,6 @@ PairKey = tuple[str, ...]
 Named = TypeVar("Named")
 
 
-class Pair(NamedTuple):
-    """An episode with a newcomer and the team alone in the same scenario under the same limits."""
-
-    joined: Record
-    alone: Record
-
-
 class Team(NamedTuple):
     """A team with the model that it, or the task, asks: one block of a table."""
 
@@ -37,6 +30,15 @@ class Contestant(NamedTuple):
     policy: str
     label: str
     model: str | None
+
+
+class Pair(NamedTuple):
+    """An episode with a newcomer and the team alone in the same scenario under the same limits."""
+
+    joined: Record
+    alone: Record
+    who: Contestant
+    """Whose row it is in."""
 
 
 def team_of(record: Record) -> Team:
@@ -84,14 +86,15 @@ def alone_records(records: Iterable[Record]) -> dict[PairKey, Record]:
     return found
 
 
-def pairs(records: Sequence[Record]) -> list[Pair]:
-    """All episodes with a newcomer whose team-alone episode is there, in their order.
+def pairs(records: Iterable[Record], alone: Mapping[PairKey, Record]) -> list[Pair]:
+    """All episodes with a newcomer whose team-alone episode is among `alone_records`, in their order.
 
     Raises RecordError for a newcomer that was measured against another episode of the team alone.
     """
-    alone = alone_records(records)
     joined = ((record, alone.get(pair_key(record))) for record in records if record["join_step"] is not None)
-    found = [Pair(record, reference) for record, reference in joined if reference is not None]
+    found = [
+        Pair(record, reference, contestant(record)) for record, reference in joined if reference is not None
+    ]
     for pair in found:
         reference = pair.joined.get("reference_temporal_steps")
         if reference is not None and reference != pair.alone["temporal_steps"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from adhoc.reporting.counting import counted
+from adhoc.core.counting import counted
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.paper_numbers import PaperBlock, PaperNumbers, PaperRow
 from adhoc.reporting.paper_order import ABLATIONS, FULL_METHOD, ablation_order

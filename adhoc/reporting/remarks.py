@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from adhoc.core.counting import counted
 from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.records import Record
-from adhoc.reporting.counting import counted
 from adhoc.reporting.pairing import Contestant, Pair, PairKey, Team, contestant, team_of
 from adhoc.reporting.paper_order import team_order
 
@@ -104,9 +104,8 @@ def _uneven(paired: Iterable[Pair], names: Names) -> Iterator[str]:
     counts: dict[tuple[int, Team], Counter[Contestant]] = {}
     scenarios: dict[tuple[int, Team], set[int]] = {}
     for pair in paired:
-        who = contestant(pair.joined)
-        block = (pair.joined["join_step"], who.team)
-        counts.setdefault(block, Counter())[who] += 1
+        block = (pair.joined["join_step"], pair.who.team)
+        counts.setdefault(block, Counter())[pair.who] += 1
         scenarios.setdefault(block, set()).add(id(pair.alone))
     for (step, team), found in sorted(counts.items(), key=lambda it: (it[0][0], it[0][1].name)):
         total = len(scenarios[step, team])
@@ -121,9 +120,9 @@ def _uneven(paired: Iterable[Pair], names: Names) -> Iterator[str]:
 def _other_scenarios(alone: Mapping[PairKey, Record], paired: Sequence[Pair], names: Names) -> Iterator[str]:
     """Teams of one table that are over other scenarios than each other."""
     found: dict[int | None, dict[Team, set[tuple[str, str]]]] = {}
-    shown = ((it.joined["join_step"], it.alone) for it in paired)
-    for step, record in shown if paired else ((None, it) for it in alone.values()):
-        of_team = found.setdefault(step, {}).setdefault(team_of(record), set())
+    shown = ((it.joined["join_step"], it.who.team, it.alone) for it in paired)
+    for step, team, record in shown if paired else ((None, team_of(it), it) for it in alone.values()):
+        of_team = found.setdefault(step, {}).setdefault(team, set())
         of_team.add((record["task_id"], record["scenario_hash"]))
     for step, teams in sorted(found.items(), key=lambda it: -1 if it[0] is None else it[0]):
         if any(scenarios != next(iter(teams.values())) for scenarios in teams.values()):

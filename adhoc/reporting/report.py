@@ -15,9 +15,7 @@ from adhoc.reporting.pairing import (
     Team,
     alone_records,
     check_settings,
-    contestant,
     labels,
-    pair_key,
     pairs,
     team_names,
     team_of,
@@ -75,7 +73,8 @@ def make_report(
         RecordError: The records do not belong together (see `reporting.pairing`).
     """
     check_settings(records, settings)
-    alone, paired = alone_records(records), pairs(records)
+    alone = alone_records(records)
+    paired = pairs(records, alone)
     names = Names(team_names(records), labels(pair.joined for pair in paired))
     drafts = list(_drafts(alone, paired, names))
     if intervals:
@@ -107,9 +106,8 @@ class _Draft:
 def _drafts(alone: Mapping[PairKey, Record], paired: Iterable[Pair], names: Names) -> Iterator[_Draft]:
     groups: dict[int, dict[Team, dict[Contestant, list[Pair]]]] = {}
     for pair in paired:
-        who = contestant(pair.joined)
         teams_then = groups.setdefault(pair.joined["join_step"], {})
-        teams_then.setdefault(who.team, {}).setdefault(who, []).append(pair)
+        teams_then.setdefault(pair.who.team, {}).setdefault(pair.who, []).append(pair)
     if not groups:
         teams: dict[Team, list[Record]] = {}
         for record in alone.values():
@@ -119,8 +117,8 @@ def _drafts(alone: Mapping[PairKey, Record], paired: Iterable[Pair], names: Name
     for step in sorted(groups):
         for team in sorted(groups[step], key=team_order):
             mine = groups[step][team]
-            keys = dict.fromkeys(pair_key(pair.alone) for of_one in mine.values() for pair in of_one)
-            yield _alone(step, team, [alone[key] for key in keys], names)
+            references = {id(pair.alone): pair.alone for of_one in mine.values() for pair in of_one}
+            yield _alone(step, team, list(references.values()), names)
             for who in sorted(mine, key=policy_order):
                 yield _joined(step, who, mine[who], names)
 

@@ -13,8 +13,8 @@ from adhoc.reporting.pairing import (
     Contestant,
     Pair,
     Team,
+    alone_records,
     check_settings,
-    contestant,
     labels,
     pairs,
     team_names,
@@ -46,12 +46,11 @@ def scoreboards(records: Sequence[Record]) -> list[Scoreboard]:
     check_settings(records)
     groups: dict[tuple[int, Team], dict[Contestant, dict[int, Pair]]] = {}
     shown: dict[Contestant, Record] = {}
-    for pair in pairs(records):
-        who = contestant(pair.joined)
-        shown.setdefault(who, pair.joined)
-        group = groups.setdefault((pair.joined["join_step"], who.team), {})
+    for pair in pairs(records, alone_records(records)):
+        shown.setdefault(pair.who, pair.joined)
+        group = groups.setdefault((pair.joined["join_step"], pair.who.team), {})
         # Pairs of one scenario share the episode of the team alone.
-        group.setdefault(who, {})[id(pair.alone)] = pair
+        group.setdefault(pair.who, {})[id(pair.alone)] = pair
     names, teams = labels(shown.values()), team_names(records)
     return [
         _scoreboard(teams[team], join_step, _by_name(groups[join_step, team], names))

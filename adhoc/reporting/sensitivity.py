@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from adhoc.core.counting import counted
 from adhoc.core.errors import RecordError
 from adhoc.evaluation.records import Record
 from adhoc.reporting.comparisons import families
-from adhoc.reporting.counting import counted
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import Place, orderings
 

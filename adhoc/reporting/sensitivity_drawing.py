@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from adhoc.reporting.counting import counted
+from adhoc.core.counting import counted
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.figures.style import whisker
 from adhoc.reporting.sensitivity import MISTAKES, Sensitivity

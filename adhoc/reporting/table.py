@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 
 @dataclass(frozen=True)
@@ -80,6 +82,15 @@ class Document:
     """What a reader must know before believing a number."""
     notes: tuple[str, ...] = ()
     pictures: tuple[Picture, ...] = ()
+    command: str = ""
+    """What writes it again; empty if nobody said."""
+
+    def made_by(self, command: str, folder: Path) -> Document:
+        """As it stands in a file of `folder`: with the command, and with pictures found from there."""
+        pictures = (
+            replace(it, file=Path(os.path.relpath(it.file, folder)).as_posix()) for it in self.pictures
+        )
+        return replace(self, pictures=tuple(pictures), command=command)
 
 
 def text_row(cells: Iterable[str], faint: bool = False) -> Row:

@@ -219,7 +219,7 @@ class TestRun:
         walker()
         before = Path("results/episodes.jsonl").read_bytes()
         assert walker() == 0
-        assert "2 episodes in 1 scenarios; recorded: 2; to run: 0" in capsys.readouterr().out
+        assert "2 episodes in 1 scenario; recorded: 2; to run: 0" in capsys.readouterr().out
         assert Path("results/episodes.jsonl").read_bytes() == before
 
     def test_another_configuration_in_the_same_folder_is_refused(self, capsys):

@@ -84,7 +84,7 @@ def test_an_experiment_runs_as_one_plan(tmp_path, capsys):
         == 0
     )
     said = capsys.readouterr().out
-    assert "3 episodes in 1 scenarios; recorded: 0; to run: 3 (No ad hoc 1, Random 1, Heuristic 1)" in said
+    assert "3 episodes in 1 scenario; recorded: 0; to run: 3 (No ad hoc 1, Random 1, Heuristic 1)" in said
     records = RecordFile(out).read()
     assert [it["policy"] for it in records] == ["none", "random", "heuristic"]
     assert {it["run"] for it in records} <= {path.stem for path in (out / "provenance").iterdir()}

@@ -99,7 +99,7 @@ def test_figures_are_drawn_and_put_into_the_page(folder, tmp_path, capsys):
     assert report(folder, "--figures", tmp_path / "figures", "--html", page) == 0
     told = " ".join(capsys.readouterr().out.split())
     assert "2 figures, as SVG and PNG, in" in told
-    assert "4 episodes do not tell the ad hoc robot's ability" in told
+    assert "4 episodes recorded by a version that did not tell the ad hoc robot's ability" in told
     assert page.read_text(encoding="utf-8").count("<svg ") == 2
     assert len(list((tmp_path / "figures").glob("*.png"))) == 2
     assert "[" not in page.read_text(encoding="utf-8").split("Figures")[0].split("<tbody>")[1], (
@@ -181,11 +181,11 @@ def test_failed_episodes_are_told(folder, capsys):
     FailureFile(folder).add(Failure(*known))
     assert report(folder) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert "failures.jsonl: 1 episodes failed with an error and are in no row" in told
+    assert "failures.jsonl: 1 episode failed with an error, in no row" in told
 
 
 def test_episodes_that_were_begun_and_not_finished_are_told(folder, capsys):
     RecordFile(folder, UNFINISHED_NAME).replace([failed("z", "Random", 0), RECORDS[0]])
     assert report(folder) == 0
     told = " ".join(capsys.readouterr().out.split())
-    assert "unfinished.jsonl: 1 episodes were cut short by a budget and are in no row" in told
+    assert "unfinished.jsonl: 1 episode cut short by a budget, in no row" in told

@@ -320,9 +320,9 @@ class TestRuns:
     def test_without_imperfections_an_episode_is_known_as_before(self):
         """Folders of earlier versions must stay resumable: this hash was computed before there were any."""
         key = EpisodeKey(scenario(), EpisodeKind(Conditions(Errand(), TEAM, settings={"world": {"size": 1}})))
-        assert key.config_hash == "549d9290eb6ae4f4"
+        assert key.kind.config_hash == "549d9290eb6ae4f4"
         assert key.id == "two_rooms-s0--walkers--alone"
-        assert set(key.settings) == {"max_steps", "failed_share", "team", "world"}
+        assert set(key.kind.settings) == {"max_steps", "failed_share", "team", "world"}
 
     def test_records_tell_and_folders_hold_several(self, tmp_path):
         folder = RunFolder(tmp_path)

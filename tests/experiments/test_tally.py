@@ -88,6 +88,20 @@ def test_without_a_terminal_lines_are_plain():
     assert "\x1b" not in told()
 
 
+def test_without_a_terminal_success_is_told_now_and_then():
+    output = io.StringIO()
+    with ConsoleProgress(Console(file=output, width=200)) as progress:
+        progress.begin(Plan((Unit(0, 0),), 240, {}, {"IRoT": 240}))
+        for number in range(240):
+            progress.finished(record(success=number % 2 == 0))
+    told = [line for line in output.getvalue().splitlines() if line.startswith("success so far")]
+    assert told == [f"success so far: IRoT 50% of {24 * part}" for part in range(1, 10)]
+
+
+def test_a_short_run_tells_success_at_its_end_alone():
+    assert "so far" not in told()
+
+
 def test_in_a_terminal_what_runs_is_shown_and_taken_away():
     shown = told(terminal=True)
     assert "running: house--IRoT" in shown

@@ -59,6 +59,22 @@ def test_titles_of_two_policies_side_by_side_are_not_cut(tmp_path):
     assert self_test(tmp_path / "page.html", tmp_path / "profile")["cutTitles"] == []
 
 
+def test_episodes_of_one_policy_have_titles_of_their_own(tmp_path):
+    episodes = [watched(None), watched(3), watched(4), watched(4), watched(4), watched(4)]
+    episodes[3].record["model"] = "gpt-4.1-mini"
+    for beside in episodes[4:]:
+        beside.record["team_label"] = "Learned"
+    write_page(episodes, tmp_path / "page.html")
+    assert self_test(tmp_path / "page.html", tmp_path / "profile")["titles"] == [
+        "Team alone",
+        "With Thinker t3",
+        "With Thinker t4 thinker beside Walkers",
+        "With Thinker t4 gpt-4.1-mini",
+        "With Thinker t4 thinker beside Learned #5",
+        "With Thinker t4 thinker beside Learned #6",
+    ]
+
+
 def test_a_page_that_is_damaged_says_so(tmp_path):
     page = tmp_path / "page.html"
     write_page([watched(None)], page)

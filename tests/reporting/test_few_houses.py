@@ -8,9 +8,9 @@ import pytest
 from test_ordering import alone, joined
 from test_report import episode, failed
 
+from adhoc.core.counting import counted
 from adhoc.reporting.comparison_table import comparison_tables
 from adhoc.reporting.comparisons import families
-from adhoc.reporting.counting import counted
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import ordering_tables
 from adhoc.reporting.paper_layout import paper_tables

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 
+from adhoc.core.counting import counted
 from adhoc.evaluation.records import Record
 from adhoc.experiments.verifying.finding import Finding, NumberedRecord
 
@@ -48,4 +49,6 @@ def _differing(
         for it in together if len(values) > 1 else ():
             found = repr(it.record.get(field))
             if found != usual:
-                yield it.finding((field, f"is {found}; {where} it is {usual} (line {line}, {count} records)"))
+                yield it.finding(
+                    (field, f"is {found}; {where} it is {usual} (line {line}, {counted(count, 'record')})")
+                )

@@ -78,20 +78,28 @@ ModelQuestion = AboutModel | CountTokens | BeginEpisode | Complete | Note | MayG
 
 
 @dataclass(frozen=True)
+class StoredKind:
+    """A `FolderKind` that can be pickled."""
+
+    group: tuple[str, str, str | None]
+    settings: Mapping[str, Any]
+    config_hash: str
+
+
+@dataclass(frozen=True)
 class StoredKey:
     """A `FolderKey` that can be pickled."""
 
     id: str
-    group: tuple[str, str, str | None]
-    settings: Mapping[str, Any]
-    config_hash: str
+    kind: StoredKind
     scenario_id: str
     scenario_hash: str
 
     @staticmethod
     def of(key: FolderKey) -> StoredKey:
         """The values of another key."""
-        return StoredKey(key.id, key.group, key.settings, key.config_hash, key.scenario_id, key.scenario_hash)
+        kind = StoredKind(key.kind.group, key.kind.settings, key.kind.config_hash)
+        return StoredKey(key.id, kind, key.scenario_id, key.scenario_hash)
 
 
 @dataclass(frozen=True)

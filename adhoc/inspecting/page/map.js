@@ -50,8 +50,8 @@ class MapView extends MapMarks {
     const label = make("strong", { title: record.episode_id }, this.episode.title);
     const joins = record.join_step === null ? null : make("span", { class: "joins" }, record.joined ? `from step ${record.join_step}` : "never joined");
     if (this.page.episodes.length < 3) return [label, joins];
-    const options = this.page.episodes.map((one) => make("option", { value: one.place, selected: one === this.episode }, `${one.title}${one.record.join_step === null ? "" : ` (t${one.record.join_step})`}`));
-    return make("select", { onchange: (event) => this.state.choose(this, Number(event.target.value)) }, options);
+    const options = this.page.episodes.map((one) => make("option", { value: one.place, selected: one === this.episode }, one.title));
+    return [make("select", { onchange: (event) => this.state.choose(this, Number(event.target.value)) }, options), joins];
   }
 
   pick(event) {

@@ -13,6 +13,7 @@ async function selfTest(state) {
     return pixels();
   };
   const found = { episodes: state.page.episodes.length, steps: state.last };
+  found.titles = state.page.episodes.map((one) => one.title);
   const begin = slide(0);
   const middle = slide(Math.floor(state.last / 2));
   found.sliderMoves = begin.some((sum, place) => sum !== middle[place]);

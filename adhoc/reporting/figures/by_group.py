@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.scenario import Difficulty
-from adhoc.reporting.pairing import Contestant, Pair, Team, contestant, labels, pairs, team_names
+from adhoc.reporting.pairing import Contestant, Pair, Team, alone_records, labels, pairs, team_names
 from adhoc.reporting.paper_order import FULL_METHOD, policy_order, team_order
 from adhoc.statistics.intervals import Interval, Sample, clustered_intervals
 
@@ -85,9 +85,8 @@ def success_by_group(
     Episodes whose records do not tell their group are left out; nothing comes of a team without others.
     """
     of_team: dict[Team, dict[Contestant, list[Pair]]] = {}
-    for pair in pairs(records):
-        who = contestant(pair.joined)
-        of_team.setdefault(who.team, {}).setdefault(who, []).append(pair)
+    for pair in pairs(records, alone_records(records)):
+        of_team.setdefault(pair.who.team, {}).setdefault(pair.who, []).append(pair)
     shown = [mine[0].joined for policies in of_team.values() for mine in policies.values()]
     names, teams = labels(shown), team_names(records)
     for grouping in groupings:

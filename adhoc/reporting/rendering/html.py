@@ -34,6 +34,7 @@ def html_document(document: Document) -> str:
             '<html lang="en">',
             f'<head><meta charset="utf-8"><title>{title}</title>',
             '<meta name="viewport" content="width=device-width, initial-scale=1">',
+            *([f'<meta name="generator" content="{escape(document.command)}">'] if document.command else []),
             f"<style>\n{_STYLE}</style></head>",
             f"<body>\n<h1>{title}</h1>",
             *_paragraphs("warnings", document.warnings),

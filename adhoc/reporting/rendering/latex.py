@@ -56,6 +56,7 @@ def latex_document(document: Document, label_prefix: str = "") -> str:
     check_label_prefix(label_prefix)
     told = [f"% {_one_line(it)}" for it in (document.title, *document.warnings, *document.notes)]
     head = ["% In the preamble: \\usepackage{booktabs}", *told]
+    head += [f"% {_one_line(document.command)}"] if document.command else []
     return "\n".join(head) + "\n\n" + "\n".join(latex_table(it, label_prefix) for it in document.tables)
 
 

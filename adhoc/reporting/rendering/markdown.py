@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from html import escape
 
 from adhoc.reporting.table import Cell, Document, Row, Table
 
@@ -15,7 +16,9 @@ def markdown_document(document: Document) -> str:
     parts += [f"![{_escaped(it.title)}]({it.file}.svg)" for it in document.pictures]
     remarks = [f"- **{_escaped(it)}**" for it in document.warnings]
     remarks += [f"- {_escaped(it)}" for it in document.notes]
-    return "\n\n".join([*parts, *(["\n".join(remarks)] if remarks else [])]) + "\n"
+    parts += ["\n".join(remarks)] if remarks else []
+    parts += [f"<!-- {escape(document.command)} -->"] if document.command else []
+    return "\n\n".join(parts) + "\n"
 
 
 def markdown_table(table: Table) -> str:
