@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from adhoc.cli.report_options import command_for, parse
-from adhoc.cli.report_parts import Results, paper_document
+from adhoc.cli.report_parts import Reported, paper_document
 from adhoc.cli.table_console import table_console
 from adhoc.reporting.rendering.html import html_document
 from adhoc.reporting.rendering.latex import latex_document
@@ -33,9 +33,9 @@ def main(arguments: Sequence[str]) -> int:
 
 def _report(options: argparse.Namespace) -> None:
     if options.folders:
-        results = Results(options)
-        _print(results.document(for_file=False))
-        document = results.document(for_file=True)
+        reported = Reported(options)
+        _print(reported.document(for_file=False))
+        document = reported.document(for_file=True)
     else:
         document = paper_document()
         _print(document)

@@ -27,10 +27,11 @@ from adhoc.reporting.paper_numbers import PaperNumbers, paper_numbers
 from adhoc.reporting.power_table import power_tables
 from adhoc.reporting.prediction_table import prediction_table
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 from adhoc.reporting.table import Document, Picture, Table
 
 
-class Results:
+class Reported:
     """Everything that the records of some folders tell, as far as it is asked for.
 
     Raises RecordError for records that cannot be read or do not belong together, ConfigurationError for a
@@ -49,17 +50,17 @@ class Results:
         self._warnings = list(_unrecorded(options.folders, {record["episode_id"] for record in everything}))
         # Nothing of the many records goes before the end: looking for waste among them is in vain.
         gc.freeze()
-        self._records = _chosen(everything, options.team, options.policy)
-        settings = folder_settings(options.folders)
+        records = _chosen(everything, options.team, options.policy)
+        self._results = Results.of(records, folder_settings(options.folders))
         needs_intervals = options.intervals or options.figures is not None
-        self._report = make_report(self._records, needs_intervals, settings)
+        self._report = make_report(self._results, needs_intervals)
         compares = options.intervals or options.power
-        self._families = families(self._records, Scope(options.family)) if compares else []
+        self._families = families(self._results, Scope(options.family)) if compares else []
         self._common = [
-            agreement_table(self._records),
-            prediction_table(self._records),
-            effort_table(self._records),
-            cost_table(self._records),
+            agreement_table(records),
+            prediction_table(self._results),
+            effort_table(self._results),
+            cost_table(records),
         ]
 
     def document(self, for_file: bool) -> Document:
@@ -92,14 +93,15 @@ class Results:
             return ()
         from adhoc.reporting.figures.writing import write_figures
 
-        return tuple(write_figures(self._report, self._records, self._options.figures))
+        return tuple(write_figures(self._report, self._results, self._options.figures))
 
     def _figure_notes(self, for_file: bool) -> Iterator[str]:
         if self._options.figures is None:
             return
         if not for_file:
             yield f"{counted(len(self._pictures), 'figure')}, as SVG and PNG, in {self._options.figures}"
-        untold = sum(it["join_step"] is not None and it.get("newcomer") is None for it in self._records)
+        records = self._results.records
+        untold = sum(it["join_step"] is not None and it.get("newcomer") is None for it in records)
         if untold:
             yield (
                 f"{counted(untold, 'episode')} recorded by a version that did not tell the ad hoc robot's "
@@ -155,6 +157,8 @@ def _chosen(
     records: Sequence[Record], teams: Sequence[str] | None, policies: Sequence[str] | None
 ) -> list[Record]:
     """The records of these teams and policies, with the teams alone; all where nothing is named."""
+    if teams is None and policies is None:
+        return list(records)
     for field, names in (("team", teams), ("policy", policies)):
         known = sorted({str(record[field]) for record in records})
         labels = {str(record[f"{field}_label"]) for record in records}

@@ -83,7 +83,9 @@ def _is_intact(value: Any, line: bytes, paths: Sequence[Sequence[str]]) -> bool:
 def _only_place(line: bytes, name: str, value: Any) -> tuple[int, int] | None:
     """From where to where the field is written in the line; None if not exactly once."""
     try:
-        part = f',"{name}":{_encode(value)}'.encode()
+        # The encoder comes to the same for numbers, by a longer way; NaN is written otherwise, so not found.
+        text = repr(value) if type(value) in (int, float) else _encode(value)
+        part = f',"{name}":{text}'.encode()
     except ValueError:
         return None
     first = line.find(part)

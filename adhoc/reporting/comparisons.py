@@ -9,7 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
-from adhoc.evaluation.records import Record
+from adhoc.reporting.results import Results
 from adhoc.reporting.scoreboards import Scoreboard, scoreboards
 from adhoc.statistics.intervals import FloatArray, Interval, Sample, clustered_intervals
 from adhoc.statistics.many import holm
@@ -80,12 +80,9 @@ class Family:
         return None
 
 
-def families(records: Sequence[Record], scope: Scope = Scope.TABLE) -> list[Family]:
-    """All comparisons that the records allow, by joining step and team.
-
-    Raises RecordError for records that do not belong together (see `reporting.pairing`).
-    """
-    boards = scoreboards(records)
+def families(results: Results, scope: Scope = Scope.TABLE) -> list[Family]:
+    """All comparisons that the records allow, by joining step and team."""
+    boards = scoreboards(results)
     contests = [list(_contests(board)) for board in boards]
     samples = [Sample.of(100.0 * it.gains, it.houses) for mine in contests for it in mine]
     intervals = iter(clustered_intervals(samples))

@@ -9,7 +9,7 @@ from typing import Any
 from adhoc.evaluation.records import Record
 from adhoc.llm.offline.reasoner import OFFLINE_NAME
 from adhoc.llm.team_model import TEAM_PREFIX
-from adhoc.reporting.pairing import contestant
+from adhoc.reporting.contestants import contestant
 from adhoc.reporting.paper_order import Order, policy_order, team_order
 from adhoc.reporting.table import Table, plain_table
 
@@ -64,7 +64,8 @@ def use_of(record: Record) -> Use:
 
 def total_use(records: Sequence[Record]) -> Use:
     """All that several episodes asked, in sum."""
-    return Use(*(sum(record["llm"].get(name, 0) for record in records) for name in Use.__dataclass_fields__))
+    asked = [record["llm"] for record in records]
+    return Use(*(sum([counts.get(name, 0) for counts in asked]) for name in Use.__dataclass_fields__))
 
 
 def uses_by_stage(record: Record) -> dict[str, Use]:

@@ -8,10 +8,10 @@ from statistics import median
 from adhoc.evaluation.records import Record
 from adhoc.llm.offline.reasoner import OFFLINE_NAME
 from adhoc.reporting.cost_table import dollars, total_use
-from adhoc.reporting.pairing import Contestant, contestant, labels, team_names
 from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.reporting.remarks import questions, total
-from adhoc.reporting.table import Cell, Column, Row, Table
+from adhoc.reporting.results import Results
+from adhoc.reporting.table import Column, Row, Table, text_row
 
 TITLE = "What a success takes"
 COLUMNS = (
@@ -35,24 +35,18 @@ REMARKS = (
 )
 
 
-def effort_table(records: Sequence[Record]) -> Table | None:
+def effort_table(results: Results) -> Table | None:
     """One row for each team, policy and joining step; None if no model was asked and no newcomer's help
     recorded."""
-    groups: dict[tuple[Contestant, int | None], list[Record]] = {}
-    for record in records:
-        groups.setdefault((contestant(record), record["join_step"]), []).append(record)
-    if not any(it["llm"]["calls"] or "first_help" in it for it in records):
+    if not any(it["llm"]["calls"] or "first_help" in it for it in results.records):
         return None
-    of_each = [mine[0] for mine in groups.values()]
-    teams, names = team_names(of_each), labels(of_each)
-    order = sorted(groups, key=lambda it: (team_order(it[0].team), policy_order(it[0]), it[1] or 0))
+    order = sorted(results.groups, key=lambda it: (team_order(it[0].team), policy_order(it[0]), it[1] or 0))
     by_team: dict[str, list[Row]] = {}
     for who, step in order:
-        name = teams[who.team]
-        head = (name, names[who], "-" if step is None else str(step))
-        by_team.setdefault(name, []).append(Row(tuple(map(Cell, (*head, *_cells(groups[who, step]))))))
-    models = sorted({str(it["model"]) for it in records if it["model"] is not None})
-    title = f"{TITLE}; language model: {', '.join(models) or 'none used'}"
+        name = results.teams[who.team]
+        head = (name, results.rows[who], "-" if step is None else str(step))
+        by_team.setdefault(name, []).append(text_row((*head, *_cells(results.groups[who, step]))))
+    title = f"{TITLE}; language model: {', '.join(results.models) or 'none used'}"
     return Table("effort", title, COLUMNS, tuple(map(tuple, by_team.values())), REMARKS)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from adhoc.evaluation.contender import NO_AD_HOC
-from adhoc.reporting.pairing import Contestant, Team
+from adhoc.reporting.contestants import Contestant, Team
 
 TEAMS = ("heuristic", "learned", "llm")
 POLICIES = (NO_AD_HOC, "random", "heuristic", "plastic", "naive", "gpl", "cot", "irot")

@@ -8,8 +8,9 @@ from dataclasses import fields
 
 from adhoc.evaluation.predictions import PARTS, Accuracy
 from adhoc.evaluation.records import Record
-from adhoc.reporting.pairing import Contestant, contestant, labels, team_names
+from adhoc.reporting.contestants import Contestant
 from adhoc.reporting.paper_order import policy_order, team_order
+from adhoc.reporting.results import Results
 from adhoc.reporting.table import Table, plain_table
 
 FIELD = "predictions"
@@ -31,27 +32,27 @@ EXPLANATION = (
 )
 
 
-def prediction_table(records: Sequence[Record]) -> Table | None:
+def prediction_table(results: Results) -> Table | None:
     """The table; None if nobody predicted anything."""
-    rows = list(_rows(records))
-    return plain_table("predictions", TITLE, COLUMNS, 2, [rows], [_explanation(records)]) if rows else None
+    rows = list(_rows(results))
+    if not rows:
+        return None
+    return plain_table("predictions", TITLE, COLUMNS, 2, [rows], [_explanation(results.records)])
 
 
-def _rows(records: Sequence[Record]) -> Iterator[tuple[str, ...]]:
+def _rows(results: Results) -> Iterator[tuple[str, ...]]:
     """One for each team and each policy of a model that predicted; records of other versions may lack the
     field."""
     groups: dict[Contestant, list[Record]] = {}
-    for record in records:
-        groups.setdefault(contestant(record), []).append(record)
-    of_each = [mine[0] for mine in groups.values()]
-    teams, names = team_names(of_each), labels(of_each)
+    for (who, _), records in results.groups.items():
+        groups.setdefault(who, []).extend(records)
     for row in sorted(groups, key=lambda it: (team_order(it.team), policy_order(it))):
         everything = groups[row]
         found = [it[FIELD] for it in everything if it.get(FIELD)]
         if not any(it[f"{part}s"]["made"] for it in found for part in PARTS):
             continue
         parts = [_sum(it[f"{part}s"] for it in found) for part in PARTS]
-        yield (teams[row.team], names[row], *(cell for part in parts for cell in _cells(part)))
+        yield (results.teams[row.team], results.rows[row], *(cell for part in parts for cell in _cells(part)))
 
 
 def _sum(counts: Iterable[Mapping[str, int]]) -> Accuracy:

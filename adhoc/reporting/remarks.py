@@ -3,35 +3,20 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from adhoc.core.counting import counted
 from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.records import Record
-from adhoc.reporting.pairing import Contestant, Pair, PairKey, Team, contestant, team_of
+from adhoc.reporting.contestants import Contestant, Team, contestant
 from adhoc.reporting.paper_order import team_order
+from adhoc.reporting.results import Results
 
 OTHER_SCENARIOS = "rows are over different scenarios: compare within a row only"
 """Brackets and differences hold even then: each row has the team alone in its own scenarios beside it."""
 MUCH = 0.05
 """From this share of unusable replies or safe choices on, a row says more of them than of its policy."""
-
-
-@dataclass(frozen=True)
-class Names:
-    """What teams and rows are called."""
-
-    teams: Mapping[Team, str]
-    rows: Mapping[Contestant, str]
-
-    def row(self, record: Record) -> str:
-        """Whose episode it is, said without the table around it."""
-        team = self.teams[team_of(record)]
-        if record["join_step"] is None:
-            return f"{team} alone"
-        name = self.rows[contestant(record)]
-        return name if len(self.teams) == 1 else f"{name} beside {team}"
 
 
 @dataclass(frozen=True)
@@ -44,25 +29,24 @@ class Remarks:
     """Mixtures, rows over different tasks, and models that were often not understood."""
 
 
-def remarks(
-    records: Sequence[Record], alone: Mapping[PairKey, Record], paired: Sequence[Pair], names: Names
-) -> Remarks:
-    """All remarks on records, of which those of the teams alone and those of pairs are shown."""
-    shown = [*alone.values(), *(pair.joined for pair in paired)]
-    told = list(_understanding(shown, names))
+def remarks(results: Results) -> Remarks:
+    """All remarks on what is shown: the teams alone, and all pairs."""
+    shown = [*results.alone.values(), *(pair.joined for pair in results.pairs)]
+    told = list(_understanding(results))
     return Remarks(
-        (*_notes(records, paired), *(it for it, is_much in told if not is_much)),
+        (*_notes(results), *(it for it, is_much in told if not is_much)),
         (
             *_versions(shown),
             *_task_versions(shown),
-            *_uneven(paired, names),
-            *_other_scenarios(alone, paired, names),
+            *_uneven(results),
+            *_other_scenarios(results),
             *(it for it, is_much in told if is_much),
         ),
     )
 
 
-def _notes(records: Sequence[Record], paired: Sequence[Pair]) -> Iterator[str]:
+def _notes(results: Results) -> Iterator[str]:
+    records, paired = results.records, results.pairs
     joined = sum(record["join_step"] is not None for record in records)
     houses = len({record["house_id"] for record in records})
     scenarios = len({(record["task_id"], record["scenario_hash"]) for record in records})
@@ -99,52 +83,55 @@ def _task_versions(records: Iterable[Record]) -> Iterator[str]:
         )
 
 
-def _uneven(paired: Iterable[Pair], names: Names) -> Iterator[str]:
+def _uneven(results: Results) -> Iterator[str]:
     """Rows that are not over the scenarios of the others of their team and joining step."""
     counts: dict[tuple[int, Team], Counter[Contestant]] = {}
     scenarios: dict[tuple[int, Team], set[int]] = {}
-    for pair in paired:
+    for pair in results.pairs:
         block = (pair.joined["join_step"], pair.who.team)
         counts.setdefault(block, Counter())[pair.who] += 1
         scenarios.setdefault(block, set()).add(id(pair.alone))
     for (step, team), found in sorted(counts.items(), key=lambda it: (it[0][0], it[0][1].name)):
         total = len(scenarios[step, team])
-        fewer = [f"{names.rows[who]} {count}" for who, count in found.items() if count < total]
+        fewer = [f"{results.rows[who]} {count}" for who, count in found.items() if count < total]
         if fewer:
             yield (
-                f"{names.teams[team]}, joining at step {step}: {OTHER_SCENARIOS} "
+                f"{results.teams[team]}, joining at step {step}: {OTHER_SCENARIOS} "
                 f"({', '.join(sorted(fewer))} of {counted(total, 'scenario')})"
             )
 
 
-def _other_scenarios(alone: Mapping[PairKey, Record], paired: Sequence[Pair], names: Names) -> Iterator[str]:
+def _other_scenarios(results: Results) -> Iterator[str]:
     """Teams of one table that are over other scenarios than each other."""
     found: dict[int | None, dict[Team, set[tuple[str, str]]]] = {}
-    shown = ((it.joined["join_step"], it.who.team, it.alone) for it in paired)
-    for step, team, record in shown if paired else ((None, team_of(it), it) for it in alone.values()):
+    shown = ((it.joined["join_step"], it.who.team, it.alone) for it in results.pairs)
+    alone = ((None, contestant(it).team, it) for it in results.alone.values())
+    for step, team, record in shown if results.pairs else alone:
         of_team = found.setdefault(step, {}).setdefault(team, set())
         of_team.add((record["task_id"], record["scenario_hash"]))
     for step, teams in sorted(found.items(), key=lambda it: -1 if it[0] is None else it[0]):
         if any(scenarios != next(iter(teams.values())) for scenarios in teams.values()):
             where = "the team alone" if step is None else f"joining at step {step}"
             common = len(set.intersection(*teams.values()))
-            counts = (f"{names.teams[it]} {len(teams[it])}" for it in sorted(teams, key=team_order))
+            counts = (f"{results.teams[it]} {len(teams[it])}" for it in sorted(teams, key=team_order))
             yield (
                 f"{where}: {OTHER_SCENARIOS} ({', '.join(counts)}; {counted(common, 'scenario')} shared by "
                 "all)"
             )
 
 
-def _understanding(records: Iterable[Record], names: Names) -> Iterator[tuple[str, bool]]:
+def _understanding(results: Results) -> Iterator[tuple[str, bool]]:
     """One line for each row's name in whose episodes a model was not understood or a planner gave up, and
     whether that was in at least `MUCH` of the questions or decisions.
 
     Of a team alone it is the team's own models and planners, which its rows with a newcomer count too.
     """
-    by_name: dict[tuple[Contestant, bool], list[Record]] = {}
-    for record in records:
-        by_name.setdefault((contestant(record), record["join_step"] is None), []).append(record)
-    for mine in by_name.values():
+    rows: dict[Contestant, list[Record]] = {}
+    for record in results.alone.values():
+        rows.setdefault(contestant(record), []).append(record)
+    for pair in results.pairs:
+        rows.setdefault(pair.who, []).append(pair.joined)
+    for who, mine in rows.items():
         invalid, repaired = total(mine, "llm", "invalid"), total(mine, "llm", "repaired")
         counts = "team_planning" if mine[0]["join_step"] is None else "planning"
         decisions, fallbacks = total(mine, counts, "sub_tasks"), total(mine, counts, "fallbacks")
@@ -154,7 +141,15 @@ def _understanding(records: Iterable[Record], names: Names) -> Iterator[tuple[st
         parts += [f"{fallbacks} of {decisions} decisions fell back to the safe choice"] if fallbacks else []
         if parts:
             is_much = max(invalid, repaired) >= MUCH * asked > 0 or fallbacks >= MUCH * decisions > 0
-            yield f"{names.row(mine[0])}: {'; '.join(parts)}", is_much
+            yield f"{_row(who, mine[0], results)}: {'; '.join(parts)}", is_much
+
+
+def _row(who: Contestant, record: Record, results: Results) -> str:
+    """Whose episode it is, said without the table around it."""
+    team, name = results.teams[who.team], results.rows[who]
+    if record["join_step"] is None:
+        return f"{team} alone"
+    return name if len(results.teams) == 1 else f"{name} beside {team}"
 
 
 def questions(records: Iterable[Record]) -> int:
@@ -162,8 +157,8 @@ def questions(records: Iterable[Record]) -> int:
 
     Records of other versions may not tell.
     """
-    outcomes = [record.get("llm", _NOTHING).get("outcomes") for record in records]
-    return sum(counts.get(outcome, 0) for counts in outcomes if counts for outcome in JUDGED)
+    found = [record.get("llm", _NOTHING).get("outcomes") for record in records]
+    return sum(count for counts in found if counts for outcome, count in counts.items() if outcome in JUDGED)
 
 
 def total(records: Iterable[Record], field: str, count: str) -> int:

@@ -3,25 +3,15 @@ Performance)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from adhoc.evaluation.records import Record
-from adhoc.evaluation.settings_files import Settings
-from adhoc.reporting.pairing import (
-    Contestant,
-    Pair,
-    PairKey,
-    Team,
-    alone_records,
-    check_settings,
-    labels,
-    pairs,
-    team_names,
-    team_of,
-)
+from adhoc.reporting.contestants import Contestant, Team
+from adhoc.reporting.pairing import Pair
 from adhoc.reporting.paper_order import policy_order, team_order
-from adhoc.reporting.remarks import Names, remarks
+from adhoc.reporting.remarks import remarks
+from adhoc.reporting.results import Results
 from adhoc.reporting.rows import ResultRow, averages, gain_of, unaided_successes, uncertainties
 
 ALONE = "No ad hoc"
@@ -58,25 +48,12 @@ class Report:
         return f"language model: {', '.join(self.models) or 'none used'}"
 
 
-def make_report(
-    records: Sequence[Record], intervals: bool = False, settings: Mapping[str, Settings] | None = None
-) -> Report:
+def make_report(results: Results, intervals: bool = False) -> Report:
     """Derive all rows. Episodes without a team-alone partner are in none and counted in a note.
 
-    Args:
-        records: Of one or more runs.
-        intervals: Also say how far each number can be trusted.
-        settings: What the records' `config_hash`es stand for, to say what differs where records do not belong
-            together.
-
-    Raises:
-        RecordError: The records do not belong together (see `reporting.pairing`).
+    With `intervals` it also says how far each number can be trusted.
     """
-    check_settings(records, settings)
-    alone = alone_records(records)
-    paired = pairs(records, alone)
-    names = Names(team_names(records), labels(pair.joined for pair in paired))
-    drafts = list(_drafts(alone, paired, names))
+    drafts = list(_drafts(results))
     if intervals:
         found = uncertainties([(draft.mine, draft.alone) for draft in drafts])
         drafts = [replace(it, row=replace(it.row, uncertainty=how)) for it, how in zip(drafts, found)]
@@ -84,13 +61,8 @@ def make_report(
         Block(step, tuple(it.row for it in drafts if it.join_step == step))
         for step in dict.fromkeys(it.join_step for it in drafts)
     )
-    told = remarks(records, alone, paired, names)
-    return Report(
-        blocks,
-        tuple(sorted({record["model"] for record in records if record["model"] is not None})),
-        told.notes,
-        told.warnings,
-    )
+    told = remarks(results)
+    return Report(blocks, results.models, told.notes, told.warnings)
 
 
 @dataclass(frozen=True)
@@ -103,39 +75,36 @@ class _Draft:
     alone: Sequence[Record]
 
 
-def _drafts(alone: Mapping[PairKey, Record], paired: Iterable[Pair], names: Names) -> Iterator[_Draft]:
+def _drafts(results: Results) -> Iterator[_Draft]:
     groups: dict[int, dict[Team, dict[Contestant, list[Pair]]]] = {}
-    for pair in paired:
+    for pair in results.pairs:
         teams_then = groups.setdefault(pair.joined["join_step"], {})
         teams_then.setdefault(pair.who.team, {}).setdefault(pair.who, []).append(pair)
     if not groups:
-        teams: dict[Team, list[Record]] = {}
-        for record in alone.values():
-            teams.setdefault(team_of(record), []).append(record)
-        for team in sorted(teams, key=team_order):
-            yield _alone(None, team, teams[team], names)
+        for who in sorted((who for who, _ in results.groups), key=lambda it: team_order(it.team)):
+            yield _alone(None, who.team, results.groups[who, None], results)
     for step in sorted(groups):
         for team in sorted(groups[step], key=team_order):
             mine = groups[step][team]
             references = {id(pair.alone): pair.alone for of_one in mine.values() for pair in of_one}
-            yield _alone(step, team, list(references.values()), names)
+            yield _alone(step, team, list(references.values()), results)
             for who in sorted(mine, key=policy_order):
-                yield _joined(step, who, mine[who], names)
+                yield _joined(step, who, mine[who], results)
 
 
-def _alone(step: int | None, team: Team, records: Sequence[Record], names: Names) -> _Draft:
-    row = ResultRow(team, None, names.teams[team], ALONE, averages(records), None)
+def _alone(step: int | None, team: Team, records: Sequence[Record], results: Results) -> _Draft:
+    row = ResultRow(team, None, results.teams[team], ALONE, averages(records), None)
     return _Draft(step, row, records, ())
 
 
-def _joined(step: int, who: Contestant, mine: Sequence[Pair], names: Names) -> _Draft:
+def _joined(step: int, who: Contestant, mine: Sequence[Pair], results: Results) -> _Draft:
     joined = [pair.joined for pair in mine]
     scores = averages(joined)
     row = ResultRow(
         who.team,
         who,
-        names.teams[who.team],
-        names.rows[who],
+        results.teams[who.team],
+        results.rows[who],
         scores,
         gain_of(mine, scores),
         unaided=unaided_successes(mine),

@@ -10,8 +10,9 @@ from numpy.typing import NDArray
 
 from adhoc.evaluation.metrics import Improvement, Scores, average_columns, improvement
 from adhoc.evaluation.records import Record
+from adhoc.reporting.contestants import Contestant, Team
 from adhoc.reporting.few_houses import FEW_HOUSES
-from adhoc.reporting.pairing import Contestant, Pair, Team
+from adhoc.reporting.pairing import Pair
 from adhoc.statistics.intervals import Interval, Sample, clustered_intervals
 
 METRICS = ("success", "partial_success", "temporal_steps", "action_steps", "efficiency")

@@ -2,24 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from adhoc.evaluation.records import Record
-from adhoc.reporting.pairing import (
-    Contestant,
-    Pair,
-    Team,
-    alone_records,
-    check_settings,
-    labels,
-    pairs,
-    team_names,
-)
+from adhoc.reporting.contestants import Contestant, Team
+from adhoc.reporting.pairing import Pair
 from adhoc.reporting.paper_order import policy_order, team_order
+from adhoc.reporting.results import Results
 from adhoc.statistics.intervals import FloatArray
 
 
@@ -37,23 +29,16 @@ class Scoreboard:
     """(S,) of each policy, the most successful first; NaN where it has no episode."""
 
 
-def scoreboards(records: Sequence[Record]) -> list[Scoreboard]:
+def scoreboards(results: Results) -> list[Scoreboard]:
     """All that the records tell, by joining step and the order of teams of all tables; episodes without their
-    team-alone episode are left out.
-
-    Raises RecordError for records that do not belong together (see `reporting.pairing`).
-    """
-    check_settings(records)
+    team-alone episode are left out."""
     groups: dict[tuple[int, Team], dict[Contestant, dict[int, Pair]]] = {}
-    shown: dict[Contestant, Record] = {}
-    for pair in pairs(records, alone_records(records)):
-        shown.setdefault(pair.who, pair.joined)
+    for pair in results.pairs:
         group = groups.setdefault((pair.joined["join_step"], pair.who.team), {})
         # Pairs of one scenario share the episode of the team alone.
         group.setdefault(pair.who, {})[id(pair.alone)] = pair
-    names, teams = labels(shown.values()), team_names(records)
     return [
-        _scoreboard(teams[team], join_step, _by_name(groups[join_step, team], names))
+        _scoreboard(results.teams[team], join_step, _by_name(groups[join_step, team], results.rows))
         for join_step, team in sorted(groups, key=lambda key: (key[0], team_order(key[1])))
     ]
 

@@ -11,6 +11,7 @@ from adhoc.evaluation.records import Record
 from adhoc.reporting.comparisons import families
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import Place, orderings
+from adhoc.reporting.results import Results
 
 MISTAKES = ("forget_capability", "ignore_teammate", "ignore_reply")
 """The kinds of mistakes (`llm.offline.mistakes`), as the offline reasoner's parameters."""
@@ -66,7 +67,7 @@ def sensitivity(records: Mapping[Setting, Sequence[Record]]) -> Sensitivity:
     Raises:
         RecordError: they hold no newcomers, or several teams, joining steps or models.
     """
-    found = {setting: orderings(families(mine)) for setting, mine in records.items()}
+    found = {setting: orderings(families(Results.of(mine))) for setting, mine in records.items()}
     compared = {(it.team, it.join_step) for orders in found.values() for it in orders}
     models = {it["model"] for mine in records.values() for it in mine if it["join_step"] is not None}
     if len(compared) != 1 or len(models - {None}) != 1:

@@ -192,7 +192,7 @@ def test_a_report_says_that_a_run_did_not_finish(tmp_path, capsys, monkeypatch):
     with pytest.raises(KeyboardInterrupt):
         run_with_hydra(["policy=random", *TINY, "limit=2", f"out={tmp_path}"])
     main(["report", str(tmp_path)])
-    assert "1 of its runs did not finish" in " ".join(capsys.readouterr().out.split())
+    assert "1 run did not finish" in " ".join(capsys.readouterr().out.split())
     monkeypatch.setattr(stopped, before)
     run_with_hydra(["policy=random", *TINY, "limit=2", f"out={tmp_path}"])
     capsys.readouterr()

@@ -31,6 +31,7 @@ from adhoc.planning.reflect import AcceptFirst
 from adhoc.reporting.prediction_table import prediction_table
 from adhoc.reporting.rendering.markdown import markdown_table
 from adhoc.reporting.rendering.terminal import terminal_table
+from adhoc.reporting.results import Results
 
 
 def doings(*sub_tasks: str | None) -> Doings:
@@ -156,7 +157,8 @@ def record(policy: str, right: int, made: int = 4, team: str = "Heuristic based"
     none = {"made": 0, "judged": 0, "right": 0, "named": 0}
     found = {"within": 20, "sub_tasks": counts, "sub_skills": none}
     row = {"team": team, "team_label": team, "policy": policy, "policy_label": policy, "model": model}
-    return {**row, "predictions": found}
+    where = {"task_id": "t", "scenario_hash": "s", "max_steps": 500, "join_step": 0, "config_hash": "c"}
+    return {**row, **where, "predictions": found}
 
 
 class TestTable:
@@ -167,14 +169,14 @@ class TestTable:
             record("IRoT-LLM", 0, 0),
             {name: it for name, it in record("old", 1).items() if name != "predictions"},
         ]
-        text = markdown_table(prediction_table(records))
+        text = markdown_table(prediction_table(Results.of(records)))
         assert "| Heuristic based | GPL-LLM | 37.5 | 37.5 | 8 of 8 | - | - | 0 of 0 |" in text
         assert text.count("\n| ") == 2
         assert "first new one within 20 steps" in text
 
     def test_teams_and_models_are_told_apart(self):
         records = [record("GPL", 1), record("GPL", 2, team="LLM"), record("GPL", 3, model="n")]
-        rows = markdown_table(prediction_table(records)).splitlines()[4:7]
+        rows = markdown_table(prediction_table(Results.of(records))).splitlines()[4:7]
         assert [row.split(" | ")[:3] for row in rows] == [
             ["| Heuristic based", "GPL (m)", "25.0"],
             ["| Heuristic based", "GPL (n)", "75.0"],
@@ -182,12 +184,12 @@ class TestTable:
         ]
 
     def test_without_predictions_there_is_no_table(self):
-        assert prediction_table([record("IRoT-LLM", 0, 0)]) is None
-        assert prediction_table([]) is None
+        assert prediction_table(Results.of([record("IRoT-LLM", 0, 0)])) is None
+        assert prediction_table(Results.of([])) is None
 
     def test_the_table_for_the_terminal_says_the_same(self):
         console = Console(width=110, file=io.StringIO())
-        console.print(terminal_table(prediction_table([record("GPL-LLM", 1)])))
+        console.print(terminal_table(prediction_table(Results.of([record("GPL-LLM", 1)]))))
         assert "25.0" in console.file.getvalue()
 
 

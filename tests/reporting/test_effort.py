@@ -6,6 +6,7 @@ from test_report import episode, failed
 
 from adhoc.llm.offline.reasoner import OFFLINE_NAME
 from adhoc.reporting.effort_table import COLUMNS, effort_table, first_helps
+from adhoc.reporting.results import Results
 
 ABLE, UNABLE = ({"can_manipulate": can, "payload": 5.0} for can in (True, False))
 
@@ -32,7 +33,7 @@ RECORDS = [
 
 
 def rows(records):
-    table = effort_table(records)
+    table = effort_table(Results.of(records))
     assert table is not None
     return [[cell.text for cell in row.cells] for group in table.groups for row in group]
 
@@ -50,7 +51,7 @@ def test_everything_is_for_each_success_and_counts_failures_too():
 
 
 def test_the_title_names_the_models():
-    table = effort_table(RECORDS)
+    table = effort_table(Results.of(RECORDS))
     assert table is not None
     assert table.title == f"What a success takes; language model: gpt, {OFFLINE_NAME}"
 
@@ -60,4 +61,4 @@ def test_only_newcomers_count_that_joined_and_can_manipulate():
 
 
 def test_records_of_earlier_versions_without_a_model_give_no_table():
-    assert effort_table([episode("a"), episode("a", "random", 0)]) is None
+    assert effort_table(Results.of([episode("a"), episode("a", "random", 0)])) is None

@@ -16,6 +16,7 @@ from adhoc.reporting.ordering import ordering_tables
 from adhoc.reporting.paper_layout import paper_tables
 from adhoc.reporting.rendering.markdown import markdown_table
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 from adhoc.reporting.sensitivity import Setting, sensitivity, sensitivity_markdown
 
 TOO_NARROW = "{} houses: intervals from fewer than 10 houses are too narrow (docs/statistics.md)"
@@ -48,7 +49,7 @@ def in_houses(records, houses):
 def every_page(houses):
     """All that shows intervals, of tasks in so many houses."""
     records = in_houses([*alone(), *joined("good", {0, 2, 3, 7, 11})], houses)
-    found = families(records)
+    found = families(Results.of(records))
     yield "\n".join(map(markdown_table, ordering_tables(found)))
     yield "\n".join(map(markdown_table, comparison_tables(found)))
     of_model = {"model": "m"}
@@ -59,7 +60,9 @@ def every_page(houses):
         here = {"house_id": f"house {task}"}
         joins = episode if task % 2 else failed
         results += [failed(f"t{task}", **here), joins(f"t{task}", "x", 0, **here)]
-    (table,) = paper_tables(make_report(in_houses(results, houses), intervals=True), intervals=True)
+    (table,) = paper_tables(
+        make_report(Results.of(in_houses(results, houses)), intervals=True), intervals=True
+    )
     yield markdown_table(table)
 
 

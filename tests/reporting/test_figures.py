@@ -9,14 +9,15 @@ import pytest
 from matplotlib.container import ErrorbarContainer
 from test_report import episode, failed
 
+from adhoc.reporting.contestants import Contestant, Team
 from adhoc.reporting.figures.by_group import ABLE, GROUPINGS, UNABLE, success_by_group
 from adhoc.reporting.figures.by_step import success_by_step
 from adhoc.reporting.figures.drawing import draw_by_group, draw_by_step
 from adhoc.reporting.figures.style import COLOURS, MARKERS, STEP_COLOURS, UNKNOWN, policy_look, whisker
 from adhoc.reporting.figures.writing import write_figures
-from adhoc.reporting.pairing import Contestant, Team
 from adhoc.reporting.paper_order import POLICIES
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 from adhoc.statistics.intervals import Interval
 
 DIFFICULTY, ABILITY = GROUPINGS
@@ -40,7 +41,7 @@ def records(policies=("irot", "cot"), steps=(0, 50), told=True):
 
 def test_success_by_step_has_every_policy_and_the_team_alone():
     ablation = failed("e0", "irot_no_evaluation", 0, "tiny", house_id="e0", difficulty="Easy")
-    (found,) = success_by_step(make_report([*records(), ablation], intervals=True))
+    (found,) = success_by_step(make_report(Results.of([*records(), ablation]), intervals=True))
     assert (found.team_name, found.steps, found.houses) == ("Heuristic based", (0, 50), (6,))
     assert {it.name: {step: round(at.mean, 1) for step, at in it.points.items()} for it in found.series} == {
         "No ad hoc": {0: 16.7, 50: 16.7},
@@ -50,7 +51,7 @@ def test_success_by_step_has_every_policy_and_the_team_alone():
 
 
 def test_success_by_difficulty_is_that_of_the_papers_policy():
-    (found,) = success_by_group(records(), [DIFFICULTY])
+    (found,) = success_by_group(Results.of(records()), [DIFFICULTY])
     assert found.policy_name == "IROT"
     assert found.groups == ("Easy", "Difficult"), "there are no medium tasks"
     assert {group: it.mean for group, it in found.alone.items()} == {"Easy": 25.0, "Difficult": 0.0}
@@ -61,25 +62,25 @@ def test_success_by_difficulty_is_that_of_the_papers_policy():
 
 
 def test_success_by_ability_compares_each_with_the_team_alone_in_its_own_tasks():
-    (found,) = success_by_group(records(), [ABILITY])
+    (found,) = success_by_group(Results.of(records()), [ABILITY])
     assert found.groups == (ABLE, UNABLE)
     assert {group: round(it.mean, 1) for group, it in found.alone.items()} == {ABLE: 0.0, UNABLE: 33.3}
     assert (found.points[ABLE, 0].gain.mean, found.points[UNABLE, 0].gain.mean) == (100.0, 0.0)
 
 
 def test_records_that_do_not_tell_the_ability_are_left_out():
-    assert list(success_by_group(records(told=False), [ABILITY])) == []
+    assert list(success_by_group(Results.of(records(told=False)), [ABILITY])) == []
 
 
 def test_without_the_papers_policy_it_is_the_last_in_its_order():
-    (found,) = success_by_group(records(policies=("cot", "random")), [DIFFICULTY])
+    (found,) = success_by_group(Results.of(records(policies=("cot", "random"))), [DIFFICULTY])
     assert found.policy_name == "COT"
 
 
 def test_all_figures_are_drawn_name_the_model_and_are_as_wide_as_a_column(tmp_path):
     mine = records()
-    report = make_report(mine, intervals=True)
-    pictures = write_figures(report, mine, tmp_path / "figures")
+    report = make_report(Results.of(mine), intervals=True)
+    pictures = write_figures(report, Results.of(mine), tmp_path / "figures")
     names = ["joining-step-heuristic-based", "difficulty-heuristic-based", "ability-heuristic-based"]
     assert [it.file for it in pictures] == [str(tmp_path / "figures" / name) for name in names]
     assert all("tiny" in it.title for it in pictures)
@@ -90,7 +91,7 @@ def test_all_figures_are_drawn_name_the_model_and_are_as_wide_as_a_column(tmp_pa
         head = (tmp_path / "figures" / f"{name}.png").read_bytes()[:24]
         assert head[:4] == b"\x89PNG"
         assert struct.unpack(">I", head[16:20])[0] == 1035, "300 dots an inch"
-    again = write_figures(report, mine, tmp_path / "again")
+    again = write_figures(report, Results.of(mine), tmp_path / "again")
     assert [it.svg for it in again] == [it.svg for it in pictures], "equal numbers, equal files"
 
 
@@ -100,7 +101,7 @@ def texts(figure):
 
 
 def test_figures_say_what_they_show():
-    report = make_report(records(), intervals=True)
+    report = make_report(Results.of(records()), intervals=True)
     (steps,) = success_by_step(report)
     figure = draw_by_step(steps, "tiny")
     assert texts(figure)[0].splitlines() == [
@@ -111,7 +112,7 @@ def test_figures_say_what_they_show():
     ]
     legend = [text.get_text() for text in figure.legends[0].get_texts()]
     assert legend == ["No ad hoc", "COT", "IROT"]
-    (groups,) = success_by_group(records(), [DIFFICULTY])
+    (groups,) = success_by_group(Results.of(records()), [DIFFICULTY])
     title, *shown = texts(draw_by_group(groups, "tiny"))
     assert "IROT by difficulty of the task" in title
     assert "lines: 95% over houses (Easy: 4, Difficult: 2)" in title.splitlines(), (
@@ -133,8 +134,8 @@ def many(success, houses=6, of_newcomer=None):
 
 def drawn(mine):
     """The figures, and of each axes how many question marks and whiskers it has."""
-    (steps,) = success_by_step(make_report(mine, intervals=True))
-    (groups,) = success_by_group(mine, [DIFFICULTY])
+    (steps,) = success_by_step(make_report(Results.of(mine), intervals=True))
+    (groups,) = success_by_group(Results.of(mine), [DIFFICULTY])
     figures = draw_by_step(steps, "tiny"), draw_by_group(groups, "tiny")
     counts = [
         (

@@ -7,6 +7,7 @@ from adhoc.reporting.comparisons import families
 from adhoc.reporting.ordering import ordering_tables, orderings, told
 from adhoc.reporting.power_table import power_tables
 from adhoc.reporting.rendering.markdown import markdown_table
+from adhoc.reporting.results import Results
 from adhoc.statistics.intervals import Interval
 
 HOUSES = [f"house {number}" for number in range(12)]
@@ -40,7 +41,7 @@ def joined(policy, succeeds, **options):
 
 def test_the_most_successful_comes_first_with_its_paired_differences():
     records = [*alone(), *joined("poor", {0}), *joined("good", {0, 1, 2, 3, 4, 5})]
-    (ordering,) = orderings(families(records))
+    (ordering,) = orderings(families(Results.of(records)))
     good, poor = ordering.places
     assert (good.policy, poor.policy) == ("good", "poor")
     assert good.success.mean == good.over_alone.mean == 50.0
@@ -54,7 +55,7 @@ def test_the_most_successful_comes_first_with_its_paired_differences():
 
 def test_equal_policies_are_not_told_apart():
     records = [*alone(), *joined("a", {0, 1}), *joined("b", {2, 3})]
-    (ordering,) = orderings(families(records))
+    (ordering,) = orderings(families(Results.of(records)))
     assert [it.policy for it in ordering.places] == ["a", "b"]
     assert not ordering.places[1].over_best.excludes_zero
 
@@ -67,26 +68,26 @@ def test_teams_and_joining_steps_are_ordered_each_for_itself():
         *joined("a", {0}, team="LLM based", model="m"),
         *joined("a", {0}),
     ]
-    assert [(it.join_step, it.team) for it in orderings(families(records))] == [
+    assert [(it.join_step, it.team) for it in orderings(families(Results.of(records)))] == [
         (50, "Heuristic based"),
         (50, "LLM based"),
         (100, "Heuristic based"),
     ]
-    assert [sum(map(len, it.groups)) for it in ordering_tables(families(records))] == [2, 1]
+    assert [sum(map(len, it.groups)) for it in ordering_tables(families(Results.of(records)))] == [2, 1]
 
 
 def test_teams_stand_in_the_same_order_in_all_tables():
     """The records begin with the paper's last team."""
     teams = ("llm", "mine", "learned", "heuristic")
     records = [it for team in teams for it in (*alone(team=team), *joined("a", {0}, team=team))]
-    found = families(records)
+    found = families(Results.of(records))
     for table in (*ordering_tables(found), *comparison_tables(found), *power_tables(found)):
         assert [group[0].cells[0].text for group in table.groups] == ["heuristic", "learned", "llm", "mine"]
 
 
 def test_only_shared_scenarios_are_compared():
     records = [*alone(), *joined("a", set(range(12))), *joined("b", {0, 1})[:2]]
-    (ordering,) = orderings(families(records))
+    (ordering,) = orderings(families(Results.of(records)))
     assert ordering.places[1].over_best.mean == 0.0
     assert ordering.places[1].episodes == 2
 
@@ -98,11 +99,11 @@ def test_a_policy_has_its_model_in_its_name_only_where_two_are_told_apart_in_one
         *joined("Random", {0}),
         *joined("Random", {0}, team="LLM based", model="m"),
     ]
-    assert [it.places[0].policy for it in orderings(families(records))] == ["Random", "Random"]
+    assert [it.places[0].policy for it in orderings(families(Results.of(records)))] == ["Random", "Random"]
 
 
 def page(records):
-    return "\n".join(map(markdown_table, ordering_tables(families(records))))
+    return "\n".join(map(markdown_table, ordering_tables(families(Results.of(records)))))
 
 
 def test_the_page_marks_what_is_beyond_chance():

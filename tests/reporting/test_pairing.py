@@ -9,12 +9,12 @@ from adhoc.core.errors import RecordError
 from adhoc.reporting.comparisons import families
 from adhoc.reporting.cost_table import cost_rows
 from adhoc.reporting.ordering import orderings
-from adhoc.reporting.pairing import check_settings
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 
 
 def rows(*records):
-    return [cells_of(row)[:4] for row in make_report(records).blocks[0].rows]
+    return [cells_of(row)[:4] for row in make_report(Results.of(records)).blocks[0].rows]
 
 
 def test_two_models_of_one_team_have_each_its_own_reference():
@@ -53,7 +53,7 @@ def test_policies_of_one_label_keep_apart_in_table_and_order():
         failed("x", "irot_x", 0, "m", policy_label="IRoT"),
     ]
     assert [row[1] for row in rows(*records)] == ["No ad hoc", "IRoT (m) (irot)", "IRoT (m) (irot_x)"]
-    (ordering,) = orderings(families(records))
+    (ordering,) = orderings(families(Results.of(records)))
     assert [(it.policy, it.success.mean) for it in ordering.places] == [
         ("IRoT (m) (irot)", 100.0),
         ("IRoT (m) (irot_x)", 0.0),
@@ -68,7 +68,7 @@ def test_episodes_of_different_settings_are_not_averaged():
         episode("y", "IRoT", 0, config_hash="other"),
     ]
     with pytest.raises(RecordError, match="different settings"):
-        make_report(records)
+        make_report(Results.of(records))
 
 
 def test_what_differs_between_settings_is_named_if_it_is_known():
@@ -78,7 +78,7 @@ def test_what_differs_between_settings_is_named_if_it_is_known():
         "b": {"world": {"reach": 2.0}, "max_steps": 500},
     }
     with pytest.raises(RecordError, match=r"\(world\.reach: 1\.5 in the first, 2\.0 in the other\)"):
-        check_settings(records, settings)
+        Results.of(records, settings)
 
 
 def test_rows_of_one_team_share_all_but_the_policy():
@@ -89,22 +89,22 @@ def test_rows_of_one_team_share_all_but_the_policy():
     ]
     world = {"world": {"reach": 1.5}}
     settings = {"abc": world, "b": {**world, "policy": {"n": 3}}, "c": {**world, "policy": {"n": 1}}}
-    check_settings(records, settings)
+    Results.of(records, settings)
     settings["c"] = {"world": {"reach": 2.0}, "policy": {"n": 1}}
     with pytest.raises(RecordError, match=r"'x-CoT-0-None' were run with different settings \(world\.reach"):
-        check_settings(records, settings)
-    check_settings(records, {"abc": world})
+        Results.of(records, settings)
+    Results.of(records, {"abc": world})
 
 
 def test_a_newcomer_that_was_measured_against_another_episode_is_refused():
     joined = episode("x", "IRoT", 0, reference_temporal_steps=55)
     with pytest.raises(RecordError, match="a team alone of 55 steps"):
-        make_report([episode("x", temporal_steps=60), joined])
+        make_report(Results.of([episode("x", temporal_steps=60), joined]))
 
 
 def test_one_team_alone_twice_is_refused():
     with pytest.raises(RecordError, match="one team alone in one scenario"):
-        make_report([episode("x"), episode("x", episode_id="again")])
+        make_report(Results.of([episode("x"), episode("x", episode_id="again")]))
 
 
 def test_what_a_newcomer_costs_beside_each_team():

@@ -20,6 +20,7 @@ from adhoc.reporting.paper_numbers import paper_numbers
 from adhoc.reporting.rendering.panels import Panel, Width, panels
 from adhoc.reporting.rendering.terminal import terminal_table
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 from adhoc.reporting.table import plain_table
 
 
@@ -33,11 +34,13 @@ def result_tables():
             made = episode if number % 3 else failed
             label = "IRoT-LLM" if policy == "irot" else "IRoT w/o Ev. & Rf."
             records.append(made(task, policy, 0, "m", policy_label=label, first_help=None, **here))
-    yield from paper_tables(make_report(records, intervals=True), True, paper_numbers())
-    yield effort_table(records)
+    yield from paper_tables(make_report(Results.of(records), intervals=True), True, paper_numbers())
+    yield effort_table(Results.of(records))
     long = {"team": "Learning based"}
     found = families(
-        [*alone(**long), *joined("IRoT w/o Ev. & Rf.", {0, 1}, **long), *joined("CoT", {3}, **long)]
+        Results.of(
+            [*alone(**long), *joined("IRoT w/o Ev. & Rf.", {0, 1}, **long), *joined("CoT", {3}, **long)]
+        )
     )
     yield from ordering_tables(found)
     yield from comparison_tables(found)

@@ -10,6 +10,7 @@ from test_report import episode, failed
 from adhoc.reporting.paper_layout import best_of, paper_only, paper_tables
 from adhoc.reporting.paper_numbers import paper_numbers
 from adhoc.reporting.report import make_report
+from adhoc.reporting.results import Results
 
 LLM = {"team": "llm", "team_label": "LLM based"}
 HEURISTIC = {"team": "heuristic", "team_label": "Heuristic based"}
@@ -39,7 +40,7 @@ def names(table):
 
 
 def test_teams_and_policies_stand_in_the_papers_order_and_ablations_apart():
-    main, ablation = paper_tables(make_report(records()))
+    main, ablation = paper_tables(make_report(Results.of(records())))
     assert [group[0].cells[0].text for group in main.groups] == ["Heuristic based", "LLM based"]
     assert names(main) == [["No ad hoc", "Random"], ["No ad hoc", "Random", "IRoT-LLM", "Mine"]]
     assert main.key == "joining-0"
@@ -53,13 +54,13 @@ def test_teams_and_policies_stand_in_the_papers_order_and_ablations_apart():
 def test_every_joining_step_is_a_table_and_a_group_of_the_ablation():
     alone = [it for it in records() if it["join_step"] is None]
     joined = [it for step in (100, 0) for it in records(step) if it["join_step"] is not None]
-    tables = list(paper_tables(make_report([*joined, *alone])))
+    tables = list(paper_tables(make_report(Results.of([*joined, *alone]))))
     assert [table.key for table in tables] == ["joining-0", "joining-100", "ablation"]
     assert [group[0].cells[0].text for group in tables[2].groups] == ["0", "100"]
 
 
 def test_the_best_newcomer_is_bold_and_all_that_are_equal():
-    (main, _) = paper_tables(make_report(records()))
+    (main, _) = paper_tables(make_report(Results.of(records())))
     bold = [[[cell.bold for cell in row.cells[2:7]] for row in group] for group in main.groups]
     assert not any(map(any, bold[0])), "one policy is not the best of anything"
     assert bold[1] == [
@@ -73,12 +74,14 @@ def test_the_best_newcomer_is_bold_and_all_that_are_equal():
 def test_equal_as_printed_is_equal():
     """1 of 3 and 0.33333 of 1 are both printed as 33.3."""
     report = make_report(
-        [
-            failed("a"),
-            failed("a", "x", 0, partial_success=0.33333),
-            failed("a", "y", 0, partial_success=1 / 3),
-            failed("a", "z", 0, partial_success=0.25),
-        ]
+        Results.of(
+            [
+                failed("a"),
+                failed("a", "x", 0, partial_success=0.33333),
+                failed("a", "y", 0, partial_success=1 / 3),
+                failed("a", "z", 0, partial_success=0.25),
+            ]
+        )
     )
     rows = report.blocks[0].rows
     best = best_of(rows)
@@ -90,7 +93,7 @@ def test_equal_as_printed_is_equal():
 
 def test_intervals_stand_below_and_marks_behind():
     many = [it for number in range(12) for it in _house(number)]
-    report = make_report(many, intervals=True)
+    report = make_report(Results.of(many), intervals=True)
     marked = {(0, "Heuristic based", "Good")}
     (table,) = paper_tables(report, intervals=True, marked=marked)
     alone, good, same = table.groups[0]
@@ -111,7 +114,7 @@ def test_a_gain_is_positive_where_it_is_better():
         task, here = f"task {number}", {"house_id": f"house {number}"}
         good = {"temporal_steps": 100 * number, "action_steps": 1600}
         records += [failed(task, temporal_steps=500, **here), episode(task, "Good", 0, **good, **here)]
-    row = make_report(records, intervals=True).blocks[0].rows[1]
+    row = make_report(Results.of(records), intervals=True).blocks[0].rows[1]
     assert row.uncertainty is not None
     assert {metric: it.mean for metric, it in row.uncertainty.gains.items()} == {
         "success": 100.0, "partial_success": 50.0, "temporal_steps": 400.0, "action_steps": -100.0,
@@ -122,7 +125,7 @@ def test_a_gain_is_positive_where_it_is_better():
 @pytest.mark.parametrize("houses", [9, 10])
 def test_a_dagger_needs_ten_houses_that_are_not_all_alike(houses):
     many = [it for number in range(houses) for it in _house(number)]
-    (table,) = paper_tables(make_report(many, intervals=True), intervals=True)
+    (table,) = paper_tables(make_report(Results.of(many), intervals=True), intervals=True)
     assert ("†" in table.groups[0][1].cells[2].text) is (houses == 10)
 
 
@@ -134,7 +137,7 @@ def _house(number):
 
 
 def test_the_papers_numbers_stand_below_ours():
-    main, ablation = paper_tables(make_report(records(50)), paper=paper_numbers())
+    main, ablation = paper_tables(make_report(Results.of(records(50))), paper=paper_numbers())
     told = [[cell.text for cell in row.cells] for row in main.groups[1]]
     assert [row[1] for row in told] == [
         "No ad hoc", "in the paper", "Random", "in the paper", "IRoT-LLM", "in the paper", "Mine",
@@ -151,7 +154,7 @@ def test_the_papers_numbers_stand_below_ours():
 
 def test_of_two_models_of_one_policy_each_gets_its_own_row_of_the_paper():
     weaker = named("a", "irot", "IRoT-LLM", 0, model="openai/gpt-3.5-turbo-1106", **LLM)
-    _, ablation = paper_tables(make_report([*records(), weaker]), paper=paper_numbers())
+    _, ablation = paper_tables(make_report(Results.of([*records(), weaker])), paper=paper_numbers())
     told = {
         row.cells[1].text: below.cells[2].text
         for row, below in zip(ablation.groups[0], ablation.groups[0][1:])
@@ -171,14 +174,14 @@ def test_a_stray_bracket_of_the_paper_is_marked_as_its_own():
 
 def test_the_dagger_is_explained_where_it_stands():
     many = [it for number in range(12) for it in _house(number)]
-    (table,) = paper_tables(make_report(many, intervals=True), intervals=True)
+    (table,) = paper_tables(make_report(Results.of(many), intervals=True), intervals=True)
     (told,) = (it for it in table.remarks if it.startswith("†"))
     assert "the 95% interval of the paired difference from the team alone (not shown) excludes zero" in told
     assert "not corrected for many comparisons" in told
-    (table,) = paper_tables(make_report(many[:27], intervals=True), intervals=True)
+    (table,) = paper_tables(make_report(Results.of(many[:27]), intervals=True), intervals=True)
     assert not any("†" in it for it in table.remarks), "nobody has one with nine houses"
 
 
 def test_a_joining_step_that_the_paper_does_not_have_has_no_row_of_it():
-    (main, _) = paper_tables(make_report(records(7)), paper=paper_numbers())
+    (main, _) = paper_tables(make_report(Results.of(records(7))), paper=paper_numbers())
     assert not any(row.faint for group in main.groups for row in group)

@@ -7,8 +7,10 @@ from dataclasses import dataclass
 
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.scenario import Difficulty
-from adhoc.reporting.pairing import Contestant, Pair, Team, alone_records, labels, pairs, team_names
+from adhoc.reporting.contestants import Contestant, Team
+from adhoc.reporting.pairing import Pair
 from adhoc.reporting.paper_order import FULL_METHOD, policy_order, team_order
+from adhoc.reporting.results import Results
 from adhoc.statistics.intervals import Interval, Sample, clustered_intervals
 
 ABLE, UNABLE = "can manipulate", "cannot manipulate"
@@ -76,26 +78,22 @@ GROUPINGS = (
 )
 
 
-def success_by_group(
-    records: Sequence[Record], groupings: Sequence[Grouping] = GROUPINGS
-) -> Iterator[SuccessByGroup]:
+def success_by_group(results: Results, groupings: Sequence[Grouping] = GROUPINGS) -> Iterator[SuccessByGroup]:
     """One for each grouping and team: of the paper's own policy, or of the last in its order where that is
     missing.
 
     Episodes whose records do not tell their group are left out; nothing comes of a team without others.
     """
     of_team: dict[Team, dict[Contestant, list[Pair]]] = {}
-    for pair in pairs(records, alone_records(records)):
+    for pair in results.pairs:
         of_team.setdefault(pair.who.team, {}).setdefault(pair.who, []).append(pair)
-    shown = [mine[0].joined for policies in of_team.values() for mine in policies.values()]
-    names, teams = labels(shown), team_names(records)
     for grouping in groupings:
         for team in sorted(of_team, key=team_order):
             order = sorted(of_team[team], key=policy_order)
             who = next((it for it in order if it.policy == FULL_METHOD), order[-1])
             mine = [pair for pair in of_team[team][who] if grouping.of(pair.joined) is not None]
             if mine:
-                yield _grouped(grouping, who, mine, teams[team], names[who])
+                yield _grouped(grouping, who, mine, results.teams[team], results.rows[who])
 
 
 def _grouped(

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from adhoc.reporting.pairing import Contestant, Team
+from adhoc.reporting.contestants import Contestant, Team
 from adhoc.reporting.paper_order import ABLATIONS
 from adhoc.reporting.report import Report
 from adhoc.statistics.intervals import Interval

@@ -10,7 +10,7 @@ from matplotlib import rc_context
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from adhoc.reporting.pairing import Contestant
+from adhoc.reporting.contestants import Contestant
 from adhoc.reporting.paper_order import POLICIES
 from adhoc.statistics.intervals import Interval
 

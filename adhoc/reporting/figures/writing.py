@@ -3,41 +3,41 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from io import BytesIO
 from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from adhoc.evaluation.records import Record
 from adhoc.reporting.figures.by_group import success_by_group
 from adhoc.reporting.figures.by_step import success_by_step
 from adhoc.reporting.figures.drawing import draw_by_group, draw_by_step
 from adhoc.reporting.figures.style import DOTS_PER_INCH, paper_style
 from adhoc.reporting.report import Report
+from adhoc.reporting.results import Results
 from adhoc.reporting.table import Picture
 
 
-def write_figures(report: Report, records: Sequence[Record], folder: Path) -> list[Picture]:
+def write_figures(report: Report, results: Results, folder: Path) -> list[Picture]:
     """Draw everything that the records can tell, as SVG and PNG; files of the same names are replaced.
 
     Args:
-        report: Made from the records, with intervals.
-        records: For what parts scenarios.
+        report: Made from the results, with intervals.
+        results: For what parts scenarios.
         folder: Is made if it is missing.
     """
     folder.mkdir(parents=True, exist_ok=True)
     with paper_style():
-        return [_written(name, title, figure, folder) for name, title, figure in _figures(report, records)]
+        return [_written(name, title, figure, folder) for name, title, figure in _figures(report, results)]
 
 
-def _figures(report: Report, records: Sequence[Record]) -> Iterator[tuple[str, str, Figure]]:
+def _figures(report: Report, results: Results) -> Iterator[tuple[str, str, Figure]]:
     """Their names, titles and drawings."""
     model = ", ".join(report.models) or "none used"
     for steps in success_by_step(report):
         title = f"Success by joining step, {steps.team_name}; model: {model}"
         yield f"joining-step-{steps.team_name}", title, draw_by_step(steps, model)
-    for groups in success_by_group(records):
+    for groups in success_by_group(results):
         title = f"{groups.policy_name} {groups.grouping.title}, {groups.team_name}; model: {model}"
         yield f"{groups.grouping.key}-{groups.team_name}", title, draw_by_group(groups, model)
 
