@@ -10,7 +10,7 @@ from adhoc.core.counting import counted
 from adhoc.evaluation.llm_field import JUDGED
 from adhoc.evaluation.records import Record
 from adhoc.reporting.contestants import Contestant, Team, contestant
-from adhoc.reporting.paper_order import team_order
+from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.reporting.results import Results
 
 OTHER_SCENARIOS = "rows are over different scenarios: compare within a row only"
@@ -131,7 +131,8 @@ def _understanding(results: Results) -> Iterator[tuple[str, bool]]:
         rows.setdefault(contestant(record), []).append(record)
     for pair in results.pairs:
         rows.setdefault(pair.who, []).append(pair.joined)
-    for who, mine in rows.items():
+    for who in sorted(rows, key=lambda it: (team_order(it.team), policy_order(it))):
+        mine = rows[who]
         invalid, repaired = total(mine, "llm", "invalid"), total(mine, "llm", "repaired")
         counts = "team_planning" if mine[0]["join_step"] is None else "planning"
         decisions, fallbacks = total(mine, counts, "sub_tasks"), total(mine, counts, "fallbacks")

@@ -141,6 +141,19 @@ def test_what_is_not_the_models_doing_is_told_for_each_row():
     ]
 
 
+def test_the_order_in_which_episodes_ended_does_not_matter():
+    talked = [
+        failed(task, label, step, "tiny", **talk(100, 4, 100, 4))
+        for task in ("a", "b")
+        for label in ("IRoT-LLM", "CoT-LLM", "Mine", "Another")
+        for step in (0, 50)
+    ]
+    records = [failed("a"), failed("b"), *talked]
+    assert make_report(Results.of(records[::-1]), intervals=True) == make_report(
+        Results.of(records), intervals=True
+    )
+
+
 def test_a_few_misunderstandings_are_a_note_and_no_warning():
     report = make_report(
         Results.of([failed("a"), failed("a", "IRoT-LLM", 50, "tiny", **talk(100, 4, 100, 4))])
