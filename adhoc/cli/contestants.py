@@ -96,6 +96,8 @@ class Components:
         if self._task_asked_for_model:
             settings["task"].update(hashed_settings(self._config, self._plain("llm")))
             model = self._model.counting
+        if task.common_sense is not None and task.common_sense.fingerprint:
+            settings["task"][f"{FINGERPRINT}task"] = task.common_sense.fingerprint
         imperfections: Imperfections = self._component("imperfections", Imperfections)
         most = self._largest_team if imperfections.settings else None
         if most is not None:
@@ -124,7 +126,8 @@ class Components:
     def fingerprints(self, newcomer: Contender | None) -> dict[str, str]:
         """What the benchmark, the team and a newcomer say of their data, such as trained weights."""
         contenders = [self.conditions.team, *([] if newcomer is None else [newcomer])]
-        told = [(name, value) for one in contenders for name, value in one.settings.items()]
+        settings = [self.conditions.settings["task"], *(one.settings for one in contenders)]
+        told = [(name, value) for one in settings for name, value in one.items()]
         known = {name: str(value) for name, value in told if name.startswith(FINGERPRINT)}
         return {"benchmark": self._benchmark_fingerprint, **known}
 

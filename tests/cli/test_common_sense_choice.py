@@ -11,6 +11,7 @@ from adhoc.cli.contestants import Components
 from adhoc.cli.main import main
 from adhoc.cli.schema import register_schema
 from adhoc.core.resources import data_dir
+from adhoc.evaluation.episode_key import EpisodeKind
 from adhoc.tasks.llm_common_sense import LLMCommonSense
 from adhoc.tasks.placement import PlacementCommonSense
 
@@ -32,6 +33,15 @@ def test_the_table_is_the_default_and_asks_nobody():
     assert isinstance(conditions.task.common_sense, PlacementCommonSense)
     assert conditions.model is None
     assert "llm" not in conditions.settings["task"]
+
+
+def test_files_that_a_judge_goes_by_are_part_of_the_configuration(monkeypatch):
+    plain = components("policy=none")
+    assert "fingerprint of task" not in plain.fingerprints(None)
+    monkeypatch.setattr(PlacementCommonSense, "fingerprint", "weights")
+    judged = components("policy=none")
+    assert judged.fingerprints(None)["fingerprint of task"] == "weights"
+    assert EpisodeKind(judged.conditions).config_hash != EpisodeKind(plain.conditions).config_hash
 
 
 def test_the_model_of_the_run_is_asked_also_if_no_robot_uses_it():

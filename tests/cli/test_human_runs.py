@@ -103,6 +103,20 @@ def test_a_recorded_teammate_meets_other_newcomers(monkeypatch, capsys):
     assert [it["person"]["strayed"] for it in records("met")] == [0, 0, 2]
 
 
+def test_a_script_that_was_changed_is_another_configuration(capsys):
+    script = Path("script.txt")
+    script.write_text("w\nwait 4\n")
+    scripted = [WALKERS, "policy=human", "+policy.agent.script=script.txt", "out=scripted"]
+    assert run(*scripted, "join_step=2") == 0
+    script.write_text("# a comment\nw\nwait 4\n")
+    assert run(*scripted, "join_step=3") == 0
+    script.write_text("w\nwait 5\n")
+    capsys.readouterr()
+    assert run(*scripted, "join_step=4") == 2
+    assert "policy=human (policy.fingerprint of policy: " in capsys.readouterr().err
+    assert len(records("scripted")) == 3
+
+
 @pytest.mark.parametrize(
     ("arguments", "told"),
     [

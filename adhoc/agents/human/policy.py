@@ -99,6 +99,12 @@ class HumanPolicy(TalkingPolicy):
         self._script = None if script is None else Script(Path(script).expanduser(), self._script_key)
         self._sessions, self._repeat, self._terminal = sessions, repeat, terminal
 
+    @property
+    def fingerprint(self) -> str:
+        """See `Policy`: of the script's lines. What will be typed at a terminal nobody knows before."""
+        scripted = "" if self._script is None else self._script.fingerprint
+        return f"{scripted}{super().fingerprint}"
+
     def reset(self, me: str, capability: Capability, task: Task, seed: int, ask: Ask) -> None:
         """See `Policy`. Raises ConfigurationError if the log cannot be read."""
         self._wake(me, capability, task, ask)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -61,6 +62,12 @@ class Script:
                 if line.situation is not None:
                     self._places[line.situation] = (section, index)
         self._next: tuple[int, int] | None = None
+
+    @property
+    def fingerprint(self) -> str:
+        """A hash of its lines, whatever comments stand between them."""
+        text = "\n\n".join("\n".join(map(str, lines)) for lines in self._sections)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
 
     def begin(self) -> None:
         """Begin again, with another episode."""
