@@ -106,10 +106,13 @@ _HOMES = {
     "adhoc.statistics.paired_tests": ("PairedTest", "paired_test"),
     "adhoc.reporting.folders": ("read_folders",),
     "adhoc.reporting.report": ("Report", "make_report"),
+    "adhoc.reporting.results": ("Results",),
     "adhoc.experiments.comparison": ("Comparison", "Entrant"),
     "adhoc.experiments.folder": ("RunFolder",),
     "adhoc.experiments.run": ("run_comparison",),
+    "adhoc.cli.contestants": ("Components",),
     "adhoc.cli.hydra_groups": ("register_groups",),
+    "adhoc.cli.run_config": ("run_config",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.episode_result import EpisodeResult
-from adhoc.evaluation.records import Record
+from adhoc.evaluation.records import Record, writing
 from adhoc.evaluation.transcript import write_transcript
 from adhoc.experiments.comparison import Artifact
 
@@ -23,7 +24,7 @@ def artifacts_for(folder: Path, pictures: bool, transcript: bool) -> list[Artifa
         page = write_transcript(result, record)
         if page is not None:
             path = folder / "transcripts" / f"{key.id}.md"
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(page, encoding="utf-8")
+            with writing(path):
+                write_whole(path, page.encode())
 
     return [*([draw] if pictures else []), *([write] if transcript else [])]

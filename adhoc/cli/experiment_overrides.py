@@ -8,6 +8,8 @@ from typing import Any
 
 from omegaconf import OmegaConf
 
+from adhoc.core.errors import ConfigurationError
+
 EXPERIMENT = "experiment"
 PARAMS = "hydra.sweeper.params"
 
@@ -17,12 +19,23 @@ def is_experiment(arguments: Sequence[str]) -> bool:
     return any(argument.startswith(f"{EXPERIMENT}=") for argument in arguments)
 
 
-def with_swept(arguments: Sequence[str], configs: Path) -> list[str]:
+def with_swept(arguments: Sequence[str], folders: Sequence[Path]) -> list[str]:
     """The arguments with those put into the sweep whose keys the named experiment sweeps.
 
     Hydra would sweep over both, the file's values and those of the command line.
+
+    Args:
+        arguments: Overrides and options.
+        folders: Where configurations are, in the order in which they are looked up.
+
+    Raises:
+        ConfigurationError: Several experiments are named: each has a sweep of its own.
     """
-    swept = set(_swept(arguments, configs))
+    for argument in arguments:
+        group, _, name = argument.partition("=")
+        if group == EXPERIMENT and "," in name:
+            raise ConfigurationError(f"{argument}: one at a time, since each sweeps by itself")
+    swept = set(_swept(arguments, folders))
     return [
         _as_swept(argument) if argument.partition("=")[0] in swept else argument for argument in arguments
     ]
@@ -31,13 +44,14 @@ def with_swept(arguments: Sequence[str], configs: Path) -> list[str]:
 def _as_swept(argument: str) -> str:
     key, _, value = argument.partition("=")
     escaped = value.replace("\\", "\\\\").replace("'", "\\'")
-    return f"{PARAMS}.{key}='{escaped}'"
+    return f"{PARAMS}={{{key}:'{escaped}'}}"  # keys may have dots
 
 
-def _swept(arguments: Sequence[str], configs: Path) -> Iterator[str]:
+def _swept(arguments: Sequence[str], folders: Sequence[Path]) -> Iterator[str]:
     for argument in arguments:
         group, _, name = argument.partition("=")
-        path = configs / EXPERIMENT / f"{name}.yaml"
-        if group == EXPERIMENT and path.is_file():
+        paths = (folder / EXPERIMENT / f"{name}.yaml" for folder in folders)
+        path = next((it for it in paths if it.is_file()), None)
+        if group == EXPERIMENT and path is not None:
             params: Any = OmegaConf.select(OmegaConf.load(path), PARAMS)
             yield from (str(key) for key in params or ())

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
-from adhoc.core.errors import ConfigurationError, RecordError
-from adhoc.evaluation.records import FILE_NAME, Record, RecordFile
+from adhoc.cli.output_files import check_output
+from adhoc.core.errors import ConfigurationError
 from adhoc.experiments.exporting.columns import columns_of
 from adhoc.experiments.exporting.files import write_csv, write_parquet
+from adhoc.reporting.folders import records_of
 
 EPILOG = """\
 One row a record, in the order of the folders and of their lines. Fields of fields have names with dots
@@ -18,7 +19,8 @@ One row a record, in the order of the folders and of their lines. Fields of fiel
 
 
 def main(arguments: Sequence[str]) -> int:
-    """Write the files. Raises RecordError for folders without records, MissingDependency without pyarrow."""
+    """Write the files. Raises RecordError for folders without records or with the same ones,
+    MissingDependency without pyarrow."""
     parser = argparse.ArgumentParser(
         prog="adhoc export",
         description="Write the records of runs as CSV or Parquet.",
@@ -31,18 +33,11 @@ def main(arguments: Sequence[str]) -> int:
     options = parser.parse_args(list(arguments))
     if options.csv is None and options.parquet is None:
         raise ConfigurationError("--csv FILE or --parquet FILE must be given")
-    columns = columns_of(_records(options.folders))
+    for option, path in (("--csv", options.csv), ("--parquet", options.parquet)):
+        check_output(option, path)
+    columns = columns_of(records_of(options.folders))
     for path, write in ((options.csv, write_csv), (options.parquet, write_parquet)):
         if path is not None:
             write(path, columns)
             sys.stdout.write(f"{path}: {len(columns[0].cells)} rows of {len(columns)} columns\n")
     return 0
-
-
-def _records(folders: Sequence[str]) -> Iterator[tuple[str, Record]]:
-    for folder in folders:
-        found = RecordFile(folder).read()
-        if not found:
-            raise RecordError(f"{Path(folder) / FILE_NAME}: no episode records; is it the out=... of a run?")
-        for record in found:
-            yield folder, record

@@ -19,6 +19,7 @@ from omegaconf.errors import OmegaConfBaseException
 from adhoc.cli.config_checks import check_config, no_folder
 from adhoc.cli.config_errors import one_line
 from adhoc.cli.experiment_overrides import is_experiment, with_swept
+from adhoc.cli.hydra_arguments import overrides_first, own_folders
 from adhoc.cli.replaced import drop_foreign_settings
 from adhoc.cli.run_configs import run_configs
 from adhoc.cli.run_help import GROUPS
@@ -43,7 +44,7 @@ def run_with_hydra(arguments: Sequence[str]) -> int:
     Returns the exit code. Raises AdhocError for whatever is wrong with the input; it ends a sweep.
     """
     _check_sweep(arguments)
-    arguments = with_swept(arguments, data_dir("configs"))
+    arguments = with_swept(arguments, [*own_folders(arguments), data_dir("configs")])
     register_schema()
     make_importable(Path.cwd())
     failures: list[AdhocError] = []
@@ -122,12 +123,10 @@ def _elsewhere(arguments: Sequence[str]) -> Iterator[list[str]]:
 
 @contextmanager
 def _hydra_arguments(arguments: Sequence[str]) -> Iterator[None]:
-    """Hydra reads `sys.argv`, wants its flags before the overrides, and raises instead of printing traces
-    only if its environment says so."""
+    """Hydra reads `sys.argv`, and raises instead of printing traces only if its environment says so."""
     argv, full = sys.argv, os.environ.get("HYDRA_FULL_ERROR")
-    sweep = [argument for argument in arguments if argument in SWEEP]
     program = "adhoc" if "-sc" in arguments else "adhoc run"  # what a shell is told to complete
-    sys.argv = [program, *sweep, *(argument for argument in arguments if argument not in SWEEP)]
+    sys.argv = [program, *overrides_first(arguments)]
     os.environ["HYDRA_FULL_ERROR"] = "1"
     try:
         yield

@@ -8,7 +8,9 @@ from pathlib import Path
 
 from rich.console import Console
 
+from adhoc.cli.output_files import check_output
 from adhoc.cli.replaying import ReplayFolder
+from adhoc.cli.trust import add_trust
 from adhoc.core.errors import ConfigurationError
 from adhoc.inspecting.watching import Watched
 
@@ -20,7 +22,7 @@ def main(arguments: Sequence[str]) -> int:
     """Replay and draw. Raises AdhocError for whatever is wrong with the input."""
     options = _parse(arguments)
     _check(options)
-    folder = ReplayFolder(options.folder)
+    folder = ReplayFolder(options.folder, options.trust)
     console = Console(highlight=False, markup=False, soft_wrap=True)
     if options.episode is None:
         _list(folder, console)
@@ -52,11 +54,13 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("--pictures", type=Path, metavar="DIR", help="draw key steps as PNG and SVG into DIR")
     parser.add_argument("--film", type=Path, metavar="FILE", help="draw a film, .gif or .mp4 (adhoc[viz])")
     parser.add_argument("--rrd", type=Path, metavar="FILE", help="write a Rerun recording (adhoc[rerun])")
+    add_trust(parser)
     return parser.parse_args(list(arguments))
 
 
 def _check(options: argparse.Namespace) -> None:
     """What can be wrong with the options shows before minutes are spent on a replay."""
+    check_output("--out", options.out)
     if options.film is not None:
         if options.film.suffix.lower() not in FILMS:
             raise ConfigurationError(f"--film {options.film}: must end with {' or '.join(FILMS)}")

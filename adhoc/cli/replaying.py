@@ -11,6 +11,7 @@ from omegaconf import DictConfig, OmegaConf
 
 from adhoc.cli.contestants import Components
 from adhoc.cli.model_chain import LedgerMode, is_offline
+from adhoc.cli.trust import check_trusted
 from adhoc.core.errors import EpisodeError, RecordError
 from adhoc.evaluation.episode_key import EpisodeKey, EpisodeKind
 from adhoc.evaluation.lazy_scenarios import scenario_ids
@@ -32,14 +33,20 @@ class ReplayFolder:
 
     Args:
         folder: The run folder.
+        trust: Whether components that are not of this library may be built, which runs their code.
         configs: Configurations by run, in place of those in the folder.
 
     Raises:
         RecordError: There are no records, or they are damaged.
     """
 
-    def __init__(self, folder: str | Path, configs: Mapping[str, Mapping[str, Any]] | None = None) -> None:
-        self.path = Path(folder)
+    def __init__(
+        self,
+        folder: str | Path,
+        trust: bool = False,
+        configs: Mapping[str, Mapping[str, Any]] | None = None,
+    ) -> None:
+        self.path, self._trust = Path(folder), trust
         file = RecordFile(folder)
         self.records = file.read()
         if not self.records:
@@ -103,6 +110,8 @@ class ReplayFolder:
             )
         if run not in self._built:
             config = self._configs[run] if run in self._configs else read_provenance(self.path, run).config
+            if not self._trust:
+                check_trusted(config)
             composed = replay_config(config, self.path)
             self._built[run] = composed, Components(composed)
         return self._built[run]

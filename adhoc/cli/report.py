@@ -10,6 +10,8 @@ from pathlib import Path
 from adhoc.cli.report_options import command_for, parse
 from adhoc.cli.report_parts import Reported, paper_document
 from adhoc.cli.table_console import table_console
+from adhoc.core.whole_file import write_whole
+from adhoc.evaluation.records import writing
 from adhoc.reporting.rendering.html import html_document
 from adhoc.reporting.rendering.latex import latex_document
 from adhoc.reporting.rendering.markdown import markdown_document
@@ -32,13 +34,17 @@ def main(arguments: Sequence[str]) -> int:
 
 
 def _report(options: argparse.Namespace) -> None:
+    """The files first: whoever reads the terminal may leave before its end."""
     if options.folders:
         reported = Reported(options)
+        _write(reported.document(for_file=True), options)
         _print(reported.document(for_file=False))
-        document = reported.document(for_file=True)
     else:
-        document = paper_document()
-        _print(document)
+        _write(paper_document(), options)
+        _print(paper_document())
+
+
+def _write(document: Document, options: argparse.Namespace) -> None:
     writers: Mapping[str, Callable[[Document], str]] = {
         "markdown": markdown_document,
         "latex": lambda it: latex_document(it, options.label_prefix),
@@ -47,8 +53,9 @@ def _report(options: argparse.Namespace) -> None:
     for name, write in writers.items():
         path: Path | None = getattr(options, name)
         if path is not None:
-            made = document.made_by(command_for(options, path), path.parent)
-            path.write_text(write(made), encoding="utf-8")
+            made = document.made_by(command_for(options, name, path), path.parent)
+            with writing(path):
+                write_whole(path, write(made).encode())
 
 
 def _print(document: Document) -> None:

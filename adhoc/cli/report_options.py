@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NoReturn
 
+from adhoc.cli.output_files import check_output
 from adhoc.core.errors import ConfigurationError
 from adhoc.reporting.comparisons import Scope
 from adhoc.reporting.rendering.latex import check_label_prefix
@@ -46,16 +47,23 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     return options
 
 
-def command_for(options: argparse.Namespace, file: Path) -> str:
-    """The command that writes what is in `file` again, but for where to.
+def command_for(options: argparse.Namespace, form: str, file: Path) -> str:
+    """The command that writes what is in `file`, of one of the `FORMATS`, again, but for where to.
 
     Folders are told by their names alone, since where they are is different elsewhere; that of the figures
     as it is seen from the file.
     """
-    parts = [*_NAME.split(), *(Path(folder).resolve().name for folder in options.folders), *told(options)]
+    if form != "latex":
+        options = argparse.Namespace(**{**vars(options), "label_prefix": ""})
+    parts = [*_NAME.split(), *map(name_of, options.folders), *told(options)]
     if options.figures is not None:
         parts += ["--figures", os.path.relpath(options.figures, file.parent)]
     return " ".join(shlex.join(parts).split())
+
+
+def name_of(folder: str | Path) -> str:
+    """A run folder without where it is."""
+    return os.path.basename(os.path.abspath(folder))
 
 
 def told(options: argparse.Namespace) -> list[str]:
@@ -152,5 +160,6 @@ def _check(options: argparse.Namespace) -> None:
             raise ConfigurationError(f"--{name}: needs a run folder; the paper gives its averages alone")
     for name in FORMATS:
         path = getattr(options, name)
+        check_output(f"--{name}", path)
         if path is not None and not path.parent.is_dir():
             raise ConfigurationError(f"--{name} {path}: there is no such folder")

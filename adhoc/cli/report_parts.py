@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from functools import cached_property
 from pathlib import Path
 
+from adhoc.cli.report_options import name_of
 from adhoc.core.counting import counted
 from adhoc.core.errors import ConfigurationError
 from adhoc.evaluation.records import UNFINISHED_NAME, Record, RecordFile
@@ -135,22 +136,22 @@ def _model(paper: PaperNumbers) -> str:
 def _unrecorded(folders: Sequence[str | Path], recorded: set[str]) -> Iterator[str]:
     """Episodes that were begun and are in no row."""
     for folder in folders:
+        name = name_of(folder)
         unfinished = unfinished_runs(folder)
         if unfinished:
             yield (
-                f"{folder}: {counted(len(unfinished), 'run')} did not finish, so rows may lack episodes; the "
+                f"{name}: {counted(len(unfinished), 'run')} did not finish, so rows may lack episodes; the "
                 "same command goes on, and adhoc verify says what is missing"
             )
-        failed = len(FailureFile(folder).failures)
+        failed = sum(it.episode_id not in recorded for it in FailureFile(folder).failures)
         if failed:
             yield (
-                f"{Path(folder) / FAILURES_NAME}: {counted(failed, 'episode')} failed with an error, in no "
-                "row; a row without its hardest episodes is no fair one"
+                f"{name}/{FAILURES_NAME}: {counted(failed, 'episode')} failed with an error, in no row; a "
+                "row without its hardest episodes is no fair one"
             )
         cut = sum(it["episode_id"] not in recorded for it in RecordFile(folder, UNFINISHED_NAME).read())
         if cut:
-            path = Path(folder) / UNFINISHED_NAME
-            yield f"{path}: {counted(cut, 'episode')} cut short by a budget, in no row"
+            yield f"{name}/{UNFINISHED_NAME}: {counted(cut, 'episode')} cut short by a budget, in no row"
 
 
 def _chosen(

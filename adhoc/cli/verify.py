@@ -10,6 +10,7 @@ from pathlib import Path
 
 from adhoc.cli import report
 from adhoc.cli.hydra_run import make_importable
+from adhoc.cli.trust import add_trust
 from adhoc.cli.verify_plan import RebuiltRun
 from adhoc.cli.verify_replay import chosen, replay_findings
 from adhoc.cli.verify_tables import table_findings
@@ -30,8 +31,9 @@ def main(arguments: Sequence[str]) -> int:
     """Verify; returns the exit code. Raises AdhocError for folders that are none."""
     options = _parse(arguments)
     moved = dict(_moved(text) for text in options.file)
-    make_importable(Path.cwd())
-    faults = sum(_verify(Path(folder), options.replay, options.seed, moved) for folder in options.folders)
+    if options.trust:
+        make_importable(Path.cwd())
+    faults = sum(_verify(Path(folder), options, moved) for folder in options.folders)
     return FAULTY if faults else 0
 
 
@@ -55,6 +57,7 @@ def _parse(arguments: Sequence[str]) -> argparse.Namespace:
         metavar="KEY=PATH",
         help="where a file is here that the configuration names, as benchmark.path=houses.jsonl.gz",
     )
+    add_trust(parser)
     options = parser.parse_args(list(arguments))
     if options.replay < 0:
         raise ConfigurationError(f"--replay {options.replay}: must be at least 0")
@@ -68,10 +71,10 @@ def _moved(text: str) -> tuple[str, str]:
     return key, path
 
 
-def _verify(folder: Path, replay: int, seed: int, moved: Mapping[str, str]) -> int:
+def _verify(folder: Path, options: argparse.Namespace, moved: Mapping[str, str]) -> int:
     """Print what is found, and return how many of it are faults."""
     with ExitStack() as stack:
-        runs = _Runs(folder, moved, stack)
+        runs = _Runs(folder, moved, options.trust, stack)
         verified = verify_folder(folder, runs.plan)
         findings = list(verified.findings)
         if not verified.faults:
@@ -80,7 +83,7 @@ def _verify(folder: Path, replay: int, seed: int, moved: Mapping[str, str]) -> i
             _say(f"{folder}/{finding}" if finding.is_fault else f"{folder}: {finding}")
         faults = sum(finding.is_fault for finding in findings)
         _say(f"{folder}: {_told(len(verified.records), faults, runs.count)}")
-        picked = chosen(verified.records, replay, seed)
+        picked = chosen(verified.records, options.replay, options.seed)
         same = 0
         for different in replay_findings(folder, picked, verified.records, runs.rebuilt):
             if different is None:
@@ -96,21 +99,22 @@ def _verify(folder: Path, replay: int, seed: int, moved: Mapping[str, str]) -> i
 class _Runs:
     """The runs of a folder, each built again once."""
 
-    def __init__(self, folder: Path, moved: Mapping[str, str], stack: ExitStack) -> None:
-        self._folder, self._moved, self._stack = folder, moved, stack
+    def __init__(self, folder: Path, moved: Mapping[str, str], trust: bool, stack: ExitStack) -> None:
+        self._folder, self._moved, self._trust, self._stack = folder, moved, trust, stack
         self._built: dict[str, RebuiltRun] = {}
         self.count = 0
 
     def plan(self, facts: Provenance) -> RunPlan:
         self.count += 1
         with ExitStack() as stack:
-            rebuilt = RebuiltRun(self._folder, facts, self._moved)
+            rebuilt = RebuiltRun(self._folder, facts, self._moved, self._trust)
             stack.callback(rebuilt.close)
             return rebuilt.plan()
 
     def rebuilt(self, run: str) -> RebuiltRun:
         if run not in self._built:
-            rebuilt = RebuiltRun(self._folder, read_provenance(self._folder, run), self._moved)
+            facts = read_provenance(self._folder, run)
+            rebuilt = RebuiltRun(self._folder, facts, self._moved, self._trust)
             self._stack.callback(rebuilt.close)
             self._built[run] = rebuilt
         return self._built[run]

@@ -14,6 +14,7 @@ from omegaconf.errors import OmegaConfBaseException
 from adhoc.cli.comparing import comparisons_of, provider_of
 from adhoc.cli.config_errors import one_line
 from adhoc.cli.replaying import replay_config
+from adhoc.cli.trust import check_trusted
 from adhoc.core.errors import ConfigurationError, DatasetError, RecordError
 from adhoc.evaluation.episode_key import EpisodeKind
 from adhoc.evaluation.lazy_scenarios import scenario_ids
@@ -35,14 +36,17 @@ class RebuiltRun:
         folder: The run folder.
         facts: What decided the run.
         moved: Where files lie here that lay elsewhere, by their keys in the configuration.
+        trust: Whether components that are not of this library may be built, which runs their code.
 
     Raises:
         RecordError: A file outside the library that the run needs is not here, or is another one.
         AdhocError: Something cannot be built.
     """
 
-    def __init__(self, folder: Path, facts: Provenance, moved: Mapping[str, str]) -> None:
+    def __init__(self, folder: Path, facts: Provenance, moved: Mapping[str, str], trust: bool) -> None:
         self._facts = facts
+        if not trust:
+            check_trusted(facts.config)
         check_outside(facts, moved)
         try:
             self.config: DictConfig = replay_config(facts.config, folder)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from io import BytesIO
 from pathlib import Path
 
 from matplotlib.axes import Axes
@@ -11,11 +12,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patheffects import withStroke
 
 from adhoc.core.geometry import planar_distance
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.floor_drawing import draw_house
 from adhoc.evaluation.floor_shapes import MARGIN
 from adhoc.evaluation.palette import MISPLACED, NEWCOMER, OUTLINE, REPLACED, REPLACED_FACE, robot_colour
-from adhoc.evaluation.records import Record
+from adhoc.evaluation.records import Record, writing
 from adhoc.evaluation.trace import Trace, TraceEvent
 
 SPREAD = 0.035
@@ -55,8 +57,10 @@ def draw_episode(result: EpisodeResult, record: Record, path: Path) -> None:
         handlelength=2.4,
         columnspacing=1.6,
     )
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=DPI)
+    content = BytesIO()
+    figure.savefig(content, format="png", dpi=DPI)
+    with writing(path):
+        write_whole(path, content.getvalue())
 
 
 def _height_over_width(result: EpisodeResult) -> float:

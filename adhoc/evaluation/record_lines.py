@@ -30,7 +30,7 @@ def quick_records(lines: Sequence[bytes], unchecked: Collection[str]) -> list[di
     """
     try:
         values = json.loads(b"[" + b",".join(lines) + b"]")
-    except ValueError:
+    except (ValueError, RecursionError):
         values = []
     if len(values) != len(lines):
         return [None] * len(lines)

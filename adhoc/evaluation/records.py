@@ -191,7 +191,7 @@ def _decode(line: bytes, path: Path, number: int) -> Record:
     where = f"{path}, line {number}"
     try:
         record = json.loads(line)
-    except ValueError as error:
+    except (ValueError, RecursionError) as error:
         raise RecordError(f"{where}: not a JSON record ({error}); the file is damaged") from error
     if not isinstance(record, dict) or "crc" not in record:
         raise RecordError(f"{where}: not an episode record: it has no checksum ('crc')")

@@ -26,8 +26,11 @@ from adhoc.core.errors import (
 from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.records import writing
+from adhoc.prompting.clean import one_line
 
 FAILURES_NAME = "failures.jsonl"
+LONGEST_MESSAGE = 1000
+"""Characters; the trace has the whole."""
 ENDS_THE_RUN = (
     BudgetReached,
     CheckpointError,
@@ -74,7 +77,7 @@ class Failure:
             kind.policy,
             kind.join_step,
             type(error).__name__,
-            str(told),
+            one_line(str(told), LONGEST_MESSAGE),
             "".join(told.format()),
             __version__,
         )

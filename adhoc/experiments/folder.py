@@ -101,8 +101,9 @@ class RunFolder:
 
     @property
     def failures(self) -> tuple[Failure, ...]:
-        """The episodes whose latest attempt failed."""
-        return self._failures.failures
+        """The episodes whose latest attempt failed. A process that was killed between writing a record and
+        dropping what failed before leaves both; the record counts."""
+        return tuple(it for it in self._failures.failures if it.episode_id not in self._records)
 
     @property
     def unfinished(self) -> list[Record]:

@@ -39,13 +39,8 @@ def run_scenario(comparison: Comparison, position: int, store: EpisodeStore, pro
     for kind in comparison.kinds:
         key = EpisodeKey(scenario, kind)
         try:
-            record = store.find(key)
-            if record is None:
-                progress.started(key.id)
-                if kind.newcomer is not None and alone is None:
-                    raise EpisodeError(f"{key.id}: the episode of the team alone failed")
-                record = _run_one(comparison, key, alone, store)
-                progress.finished(record)
+            known = store.find(key)
+            record = known or _run(comparison, key, alone, store, progress)
         except (Exception, SystemExit) as error:
             if ends_the_run(error):
                 raise
@@ -53,11 +48,18 @@ def run_scenario(comparison: Comparison, position: int, store: EpisodeStore, pro
             progress.failed(failure)
             store.add_failure(failure)
             continue
+        if known is None:
+            progress.finished(record)
         if kind.newcomer is None:
             alone = record
 
 
-def _run_one(comparison: Comparison, key: EpisodeKey, alone: Record | None, store: EpisodeStore) -> Record:
+def _run(
+    comparison: Comparison, key: EpisodeKey, alone: Record | None, store: EpisodeStore, progress: Progress
+) -> Record:
+    progress.started(key.id)
+    if key.kind.newcomer is not None and alone is None:
+        raise EpisodeError(f"{key.id}: the episode of the team alone failed")
     started = time.perf_counter()
     result = run_keyed(comparison.world, key, alone)
     wall = time.perf_counter() - started

@@ -23,6 +23,8 @@ def unit_of(reach: float) -> float:
 def view_outline(observation: Observation, reach: float) -> NDArray[np.int8]:
     """How far the camera sees in `RAYS` columns of its picture: behind low things, but not through walls.
 
+    Houses have no ceiling: what is seen above a wall is no part of the floor, and does not count.
+
     Args:
         observation: Its depth counts.
         reach: Metres along the optical axis within which something counts as seen.
@@ -33,7 +35,9 @@ def view_outline(observation: Observation, reach: float) -> NDArray[np.int8]:
     height, width = observation.depth.shape
     columns = np.linspace(0, width - 1, RAYS).round().astype(int)
     rows = np.arange(0, height, max(1, height // ROWS))
-    depth = np.minimum(observation.depth[np.ix_(rows, columns)], reach).astype(np.float64)
+    seen = observation.depth[np.ix_(rows, columns)].astype(np.float64)
+    is_sky = ~np.isfinite(seen) & np.isfinite(seen).any(axis=0)
+    depth = np.where(is_sky, 0.0, np.minimum(seen, reach))
     matrix, turn = observation.camera.intrinsics, observation.camera.world_from_camera[:2, :3]
     across = (columns - matrix[0, 2]) / matrix[0, 0] * depth
     down = (rows[:, None] - matrix[1, 2]) / matrix[1, 1] * depth

@@ -30,6 +30,7 @@ from adhoc.inspecting.moment_drawing import (
     draw_views,
     placed_at,
 )
+from adhoc.inspecting.titles import titles
 from adhoc.inspecting.watching import Watched
 
 MOST_FRAMES = 250
@@ -100,11 +101,11 @@ def _lay_out(figure: Figure, episodes: Sequence[Watched]) -> list[tuple[Axes, Wa
     height, width = plan + TITLE, WIDTH * len(episodes)
     figure.set_size_inches(_even(width), _even(height))
     panels = []
-    for number, watched in enumerate(episodes):
+    named = titles([watched.record for watched in episodes])
+    for number, (watched, who) in enumerate(zip(episodes, named)):
         axes = figure.add_axes((number / len(episodes), 0.0, 1 / len(episodes), plan / height))
         draw_house(axes, house, 0.7, furniture_names=False)
         record = watched.record
-        who = "team alone" if record["join_step"] is None else f"with {record['policy_label']}"
         model = record["model"] or "none"
         figure.text(
             (number + 0.02) / len(episodes),

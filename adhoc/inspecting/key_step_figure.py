@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
+from io import BytesIO
 from pathlib import Path
 
 from matplotlib import rc_context
@@ -11,6 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.floor_drawing import draw_house
 from adhoc.evaluation.floor_shapes import MARGIN
 from adhoc.evaluation.palette import MISPLACED, OUTLINE, REPLACED, robot_colour
@@ -18,6 +20,7 @@ from adhoc.evaluation.records import writing
 from adhoc.houses.house import House
 from adhoc.inspecting.key_steps import COUNT, KeyStep, key_steps
 from adhoc.inspecting.moment_drawing import draw_objects, draw_paths, draw_robots
+from adhoc.inspecting.titles import titles
 from adhoc.inspecting.watching import Watched
 
 WIDTH = 14.0
@@ -53,10 +56,11 @@ def draw_key_steps(
     figure = Figure(figsize=(WIDTH, height), dpi=DPI, facecolor="white")
     FigureCanvasAgg(figure)
     steps = [key_steps(watched.result, count) for watched in episodes]
-    _draw_timeline(figure, episodes, steps, height)
+    named = titles([watched.record for watched in episodes], "original team")
+    _draw_timeline(figure, episodes, named, steps, height)
     for number, (watched, chosen) in enumerate(zip(episodes, steps)):
         top = height - EDGE - TIMELINE - number * row
-        _draw_row_title(figure, watched, top, height)
+        _draw_row_title(figure, watched, named[number], top, height)
         before = 0
         for column, key in enumerate(chosen):
             place = (EDGE + column * panel_width, top - TITLE - panel_height, panel_width, panel_height)
@@ -98,14 +102,14 @@ def _caption(figure: Figure, key: KeyStep, place: tuple[float, float, float, flo
     )
 
 
-def _draw_row_title(figure: Figure, watched: Watched, top: float, height: float) -> None:
+def _draw_row_title(figure: Figure, watched: Watched, title: str, top: float, height: float) -> None:
     record = watched.record
     joins = "" if record["join_step"] is None else f", joining at step {record['join_step']}"
     y = 1 - (height - top + 0.2) / height
     figure.text(
         EDGE / WIDTH,
         y,
-        f"{_who(watched)}{joins}",
+        f"{title}{joins}",
         fontsize=10.5,
         fontweight="bold",
         color=OUTLINE,
@@ -124,15 +128,19 @@ def _draw_row_title(figure: Figure, watched: Watched, top: float, height: float)
 
 
 def _draw_timeline(
-    figure: Figure, episodes: Sequence[Watched], steps: Sequence[Sequence[KeyStep]], height: float
+    figure: Figure,
+    episodes: Sequence[Watched],
+    named: Sequence[str],
+    steps: Sequence[Sequence[KeyStep]],
+    height: float,
 ) -> None:
     record = episodes[0].record
     models = dict.fromkeys(str(it.record[name]) for it in episodes for name in ("model", "team_model"))
-    named = ", ".join(model for model in models if model != "None") or "none"
+    asked = ", ".join(model for model in models if model != "None") or "none"
     figure.text(
         EDGE / WIDTH,
         1 - 0.22 / height,
-        f"{record['task_id']}, {record['team_label']} team; language model: {named}",
+        f"{record['task_id']}, {record['team_label']} team; language model: {asked}",
         fontsize=11,
         fontweight="bold",
         color=OUTLINE,
@@ -144,7 +152,7 @@ def _draw_timeline(
     last = max(watched.result.steps for watched in episodes)
     axes.set_xlim(-0.01 * last, 1.01 * last + 1)
     axes.set_ylim(-1, len(episodes))
-    axes.set_yticks(range(len(episodes)), [_who(watched) for watched in reversed(episodes)])
+    axes.set_yticks(range(len(episodes)), named[::-1])
     axes.tick_params(labelsize=7, length=2, pad=1)
     for number, (watched, chosen) in enumerate(zip(episodes, steps)):
         y, colour = len(episodes) - 1 - number, robot_colour(number + 1)
@@ -154,11 +162,6 @@ def _draw_timeline(
             axes.plot(watched.result.join_step, y, "*", color="white", markeredgecolor=OUTLINE, markersize=8)
 
 
-def _who(watched: Watched) -> str:
-    alone = watched.record["join_step"] is None
-    return "original team" if alone else f"with {watched.record['policy_label']}"
-
-
 def _height_over_width(house: House) -> float:
     xs, ys = zip(*(corner for room in house.rooms for corner in room.polygon))
     return float((max(ys) - min(ys) + 2 * MARGIN) / (max(xs) - min(xs) + 2 * MARGIN))
@@ -166,7 +169,11 @@ def _height_over_width(house: House) -> float:
 
 def _save(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:
     png, svg = folder / f"{name}.png", folder / f"{name}.svg"
-    with writing(png), rc_context({"svg.hashsalt": "adhoc", "svg.fonttype": "path"}):
-        figure.savefig(png, dpi=DPI)
-        figure.savefig(svg, metadata={"Date": None})
+    pixels, lines = BytesIO(), BytesIO()
+    with rc_context({"svg.hashsalt": "adhoc", "svg.fonttype": "path"}):
+        figure.savefig(pixels, format="png", dpi=DPI)
+        figure.savefig(lines, format="svg", metadata={"Date": None})
+    for path, content in ((png, pixels), (svg, lines)):
+        with writing(path):
+            write_whole(path, content.getvalue())
     return png, svg

@@ -15,11 +15,13 @@ from typing import Any
 
 from adhoc import __version__
 from adhoc.core.errors import ConfigurationError
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation import palette
 from adhoc.evaluation.records import writing
 from adhoc.inspecting.episode_data import episode_data
 from adhoc.inspecting.house_data import house_data, target_data
 from adhoc.inspecting.texts import TextStore
+from adhoc.inspecting.titles import titles
 from adhoc.inspecting.watching import Watched
 
 FORMAT = 1
@@ -55,9 +57,10 @@ def write_page(episodes: Sequence[Watched], path: Path) -> int:
     not of one task, RecordError if the file cannot be written.
     """
     text = page_text(page_data(episodes), str(episodes[0].record["episode_id"]))
+    content = text.encode()
     with writing(path):
-        path.write_text(text, encoding="utf-8")
-    return len(text.encode())
+        write_whole(path, content)
+    return len(content)
 
 
 def page_data(episodes: Sequence[Watched]) -> dict[str, Any]:
@@ -86,6 +89,7 @@ def page_data(episodes: Sequence[Watched]) -> dict[str, Any]:
         "house": house_data(scenario.house),
         "targets": target_data(scenario),
         "episodes": shown,
+        "titles": [it[:1].upper() + it[1:] for it in titles([it.record for it in episodes])],
         "commonPast": [[_common_past(one, other) for other in episodes] for one in episodes],
         "lines": texts.lines,
         "blocks": texts.blocks,

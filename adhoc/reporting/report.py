@@ -81,8 +81,9 @@ def _drafts(results: Results) -> Iterator[_Draft]:
         teams_then = groups.setdefault(pair.joined["join_step"], {})
         teams_then.setdefault(pair.who.team, {}).setdefault(pair.who, []).append(pair)
     if not groups:
-        for who in sorted((who for who, _ in results.groups), key=lambda it: team_order(it.team)):
-            yield _alone(None, who.team, results.groups[who, None], results)
+        alone = {who.team: records for (who, step), records in results.groups.items() if step is None}
+        for team in sorted(alone, key=team_order):
+            yield _alone(None, team, alone[team], results)
     for step in sorted(groups):
         for team in sorted(groups[step], key=team_order):
             mine = groups[step][team]

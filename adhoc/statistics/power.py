@@ -96,8 +96,8 @@ def episodes_needed(
         design_effect: See `Pilot`.
 
     Raises:
-        ConfigurationError: a share, level or power that is none, or fewer discordant tasks than the
-            difference needs.
+        ConfigurationError: a share, level, power or design effect that is none, or fewer discordant tasks
+            than the difference needs.
     """
     distance = abs(difference)
     for name, value in (("level", level), ("power", power)):
@@ -107,6 +107,8 @@ def episodes_needed(
         raise ConfigurationError(
             f"discordant={discordant}: must be between the difference, {distance}, and 1"
         )
+    if not design_effect > 0.0:
+        raise ConfigurationError(f"design_effect={design_effect}: must be above 0")
     if distance == 0.0 or not math.isfinite(design_effect):
         return math.inf
     normal = NormalDist()

@@ -66,13 +66,37 @@ def test_every_experiment_composes_and_builds(name):
 
 def test_what_an_experiment_sweeps_may_be_swept_otherwise():
     given = ["experiment=table1", "policy=naive,irot", "limit=3", "join_step='it''s'"]
-    assert with_swept(given, ROOT) == [
+    assert with_swept(given, [ROOT]) == [
         "experiment=table1",
-        "hydra.sweeper.params.policy='naive,irot'",
+        "hydra.sweeper.params={policy:'naive,irot'}",
         "limit=3",
-        "hydra.sweeper.params.join_step='\\'it\\'\\'s\\''",
+        "hydra.sweeper.params={join_step:'\\'it\\'\\'s\\''}",
     ]
-    assert with_swept(["policy=naive,irot"], ROOT) == ["policy=naive,irot"]
+    assert with_swept(["policy=naive,irot"], [ROOT]) == ["policy=naive,irot"]
+
+
+def test_two_experiments_at_once_are_refused():
+    with pytest.raises(ConfigurationError, match="experiment=table1,table2: one at a time"):
+        run_with_hydra(["-m", "experiment=table1,table2", *TINY])
+
+
+MINE = """\
+# @package _global_
+defaults: [{override /policy: irot}]
+policy: {name: "irot_n${policy.generator.n}"}
+hydra: {mode: MULTIRUN, sweeper: {params: {policy.generator.n: "1,3", join_step: "0"}}}
+"""
+
+
+@pytest.mark.parametrize("place", [0, 1, 2])
+def test_an_experiment_of_ones_own_is_found_wherever_its_folder_is_named(tmp_path, capsys, place):
+    (tmp_path / "mine" / "experiment").mkdir(parents=True)
+    (tmp_path / "mine" / "experiment" / "candidates.yaml").write_text(MINE)
+    words = ["experiment=candidates", "policy.generator.n=1,2", *TINY, f"out={tmp_path / 'out'}"]
+    words[place:place] = ["--config-dir", str(tmp_path / "mine")]
+    assert run_with_hydra(words) == 0
+    assert "3 episodes in 1 scenario" in capsys.readouterr().out
+    assert {it["policy"] for it in RecordFile(tmp_path / "out").read()} == {"none", "irot_n1", "irot_n2"}
 
 
 def test_an_experiment_runs_as_one_plan(tmp_path, capsys):

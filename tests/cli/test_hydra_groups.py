@@ -9,8 +9,7 @@ import sys
 APPLICATION = """
 import json
 import hydra
-from adhoc.cli.contestants import Components
-from adhoc.cli.hydra_groups import register_groups
+from adhoc import Components, register_groups
 
 register_groups()
 

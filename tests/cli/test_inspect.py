@@ -36,7 +36,7 @@ def embedded(page: Path):
 
 def test_the_newcomers_episode_is_shown_beside_the_team_alone_and_nobody_is_asked(run, capsys, monkeypatch):
     monkeypatch.setattr(PaidReasoner, "complete", None)
-    assert main(["inspect", str(run), JOINED]) == 0
+    assert main(["inspect", "--trust", str(run), JOINED]) == 0
     page = run / "inspect" / f"{JOINED}.html"
     assert f"written: {page}" in capsys.readouterr().out
     data = embedded(page)
@@ -58,13 +58,13 @@ def test_a_folder_that_was_sent_elsewhere_is_read_there(run, tmp_path):
     elsewhere = tmp_path / "sent"
     shutil.copytree(run, elsewhere, ignore=shutil.ignore_patterns("inspect"))
     page = tmp_path / "page.html"
-    assert main(["inspect", str(elsewhere), ALONE, "--out", str(page)]) == 0
+    assert main(["inspect", "--trust", str(elsewhere), ALONE, "--out", str(page)]) == 0
     assert len(embedded(page)["episodes"]) == 1
     assert not (elsewhere / "inspect").exists()
 
 
 def test_episodes_are_listed_without_a_name(run, capsys):
-    assert main(["inspect", str(run)]) == 0
+    assert main(["inspect", "--trust", str(run)]) == 0
     out = capsys.readouterr().out
     assert ALONE in out
     assert JOINED in out
@@ -72,7 +72,7 @@ def test_episodes_are_listed_without_a_name(run, capsys):
 
 def test_pictures_and_a_film_are_drawn(run, tmp_path):
     options = ["--pictures", str(tmp_path), "--film", str(tmp_path / "film.gif"), "--beside", JOINED]
-    assert main(["inspect", str(run), ALONE, "--out", str(tmp_path / "page.html"), *options]) == 0
+    assert main(["inspect", "--trust", str(run), ALONE, "--out", str(tmp_path / "page.html"), *options]) == 0
     assert {path.suffix for path in tmp_path.iterdir()} == {".html", ".png", ".svg", ".gif"}
     first = embedded(tmp_path / "page.html")["episodes"][0]
     assert first["record"]["episode_id"] == JOINED
@@ -80,7 +80,7 @@ def test_pictures_and_a_film_are_drawn(run, tmp_path):
 
 class TestBadInput:
     def refused(self, capsys, *arguments: object) -> str:
-        assert main(["inspect", *map(str, arguments)]) == 2
+        assert main(["inspect", "--trust", *map(str, arguments)]) == 2
         (line,) = [it for it in capsys.readouterr().err.splitlines() if it.startswith("adhoc inspect: error")]
         return line
 

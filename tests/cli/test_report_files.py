@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -107,6 +109,34 @@ def test_figures_are_drawn_and_put_into_the_page(folder, tmp_path, capsys):
     )
 
 
+@pytest.mark.parametrize("option", ["--markdown", "--latex", "--html", "--figures"])
+def test_a_full_disk_leaves_the_old_files(folder, tmp_path, option, monkeypatch, capsys):
+    out = tmp_path / ("figures" if option == "--figures" else "report")
+    assert report(folder, option, out) == 0
+    before = {it: it.read_bytes() for it in tmp_path.rglob("*") if it.is_file()}
+    again = [episode("c"), episode("c", "Random", 50, "tiny")]
+    RecordFile(folder).replace([*RECORDS, *again])
+    before[folder / "episodes.jsonl"] = (folder / "episodes.jsonl").read_bytes()
+
+    def full(file):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr("adhoc.core.whole_file.os.fsync", full)
+    capsys.readouterr()
+    assert report(folder, option, out) == 2
+    told = capsys.readouterr().err
+    assert str(out) in told
+    assert "cannot be written: No space left on device" in told
+    assert {it: it.read_bytes() for it in tmp_path.rglob("*") if it.is_file()} == before
+
+
+@pytest.mark.parametrize("option", ["--markdown", "--latex", "--html"])
+@pytest.mark.parametrize("name", ["episodes.jsonl", "provenance/0.json", "run.lock"])
+def test_nothing_is_written_over_a_run(folder, option, name, capsys):
+    assert report(folder, option, folder / name) == 2
+    assert f"{option} {folder / name}: a run keeps its" in capsys.readouterr().err
+
+
 def test_the_papers_numbers_need_no_records(tmp_path, capsys):
     page = tmp_path / "paper.md"
     assert main(["report", "--paper", "--markdown", str(page)]) == 0
@@ -174,6 +204,13 @@ def test_settings_that_cannot_be_read_do_not_hide_the_difference(folder, capsys)
     (folder / "settings" / "abc.json").write_text("{")
     assert report(folder) == 2
     assert "(config_hash abc and other)" in capsys.readouterr().err
+
+
+def test_a_line_of_brackets_is_damage(folder, capsys):
+    path = folder / "episodes.jsonl"
+    path.write_bytes(path.read_bytes() + b"[" * 200_000 + b"\n")
+    assert report(folder) == 2
+    assert "episodes.jsonl, line 7: not a JSON record" in capsys.readouterr().err
 
 
 def test_failed_episodes_are_told(folder, capsys):

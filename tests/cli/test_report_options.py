@@ -20,7 +20,7 @@ ASKED = [
 @pytest.mark.parametrize("arguments", ASKED)
 def test_the_command_asks_for_the_same(arguments):
     options = parse(arguments)
-    again = asked_again(command_for(options, Path("out/report.md")))
+    again = asked_again(command_for(options, "latex", Path("out/tables.tex")))
     assert again.folders == [Path(folder).name for folder in options.folders]
     assert again.figures == (None if options.figures is None else Path("figures"))
     for name, value in vars(again).items():
@@ -30,7 +30,7 @@ def test_the_command_asks_for_the_same(arguments):
 
 def test_what_goes_without_saying_is_not_told_and_no_path_is():
     options = parse(["/home/somebody/out/all", "--family=table", "--intervals"])
-    assert command_for(options, Path("x.md")) == "adhoc report all --intervals"
+    assert command_for(options, "markdown", Path("x.md")) == "adhoc report all --intervals"
 
 
 @pytest.mark.parametrize(

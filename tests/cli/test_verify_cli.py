@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -74,7 +74,7 @@ def results(made, tmp_path):
 def verify(capsys):
     def verified(*arguments):
         capsys.readouterr()
-        code = adhoc("verify", *map(str, arguments))
+        code = adhoc("verify", "--trust", *map(str, arguments))
         lines = capsys.readouterr().out.splitlines()
         assert code == (0 if lines[-1].endswith("no faults") or "run again" in lines[-1] else 1) or code == 1
         return code, lines
@@ -295,6 +295,14 @@ def test_edited_provenance_is_found(results, verify):
     assert any(f"provenance/{path.name}: run: what it says has the hash" in it for it in lines)
 
 
+def test_fewer_episodes_cannot_be_wanted_afterwards(results, verify):
+    path = provenance_files(results)[0]
+    path.write_text(path.read_text().replace('"limit": null', '"limit": 1'))
+    code, lines = verify(results)
+    assert code == 1
+    assert any(f"provenance/{path.name}: sha256: is not that of what it says" in it for it in lines)
+
+
 def test_records_without_provenance_are_named_in_one_line(results, verify):
     shutil.rmtree(results / "provenance")
     file = RecordFile(results)
@@ -317,9 +325,9 @@ def test_a_limited_run_is_whole_and_its_continuation_is_not_before_it_ends(tmp_p
     run("few", "limit=1")
     assert verify("few")[0] == 0
     (path,) = provenance_files("few")
-    facts = json.loads(path.read_text())
-    facts["sessions"].append({**facts["sessions"][0], "options": {"limit": None, "shard": "1/1"}})
-    path.write_text(json.dumps(facts))
+    facts = read_provenance("few", path.stem)
+    more = {**facts.sessions[0], "options": {"limit": None, "shard": "1/1"}}
+    write_provenance("few", replace(facts, sessions=[more]))
     lines = verify("few")[1]
     assert any("2 of 4 planned episodes are missing" in it for it in lines), lines
     run("few")
@@ -355,7 +363,7 @@ def test_a_folder_without_records_is_an_error(tmp_path, capsys):
 
 @pytest.mark.parametrize("arguments", [("--replay", "-1"), ("--file", "houses.json")])
 def test_wrong_options_are_errors(results, arguments, capsys):
-    assert adhoc("verify", "results", *arguments) == 2
+    assert adhoc("verify", "--trust", "results", *arguments) == 2
     assert arguments[0] in capsys.readouterr().err
 
 

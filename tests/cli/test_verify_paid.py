@@ -34,7 +34,7 @@ def results(made, tmp_path, monkeypatch):
 
 
 def verify(capsys):
-    code = main(["verify", "results", "--replay", "2"])
+    code = main(["verify", "--trust", "results", "--replay", "2"])
     return code, capsys.readouterr().out.splitlines()
 
 

@@ -199,4 +199,8 @@ class TestCommand:
         assert "--csv FILE or --parquet FILE" in capsys.readouterr().err
         assert main(["export", "a", "none", "--csv", "x.csv"]) == 2
         assert "none/episodes.jsonl: no episode records" in capsys.readouterr().err
+        assert main(["export", "a", "a", "--csv", "x.csv"]) == 2
+        assert "a: episode 'e' is in another folder as well" in capsys.readouterr().err
+        assert main(["export", "a", "--csv", "a/episodes.jsonl"]) == 2
+        assert "--csv a/episodes.jsonl: a run keeps its .jsonl files" in capsys.readouterr().err
         assert not (tmp_path / "x.csv").exists()

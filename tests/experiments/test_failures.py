@@ -9,8 +9,9 @@ from test_run import HELPER, IDLER, SCENARIOS, conditions
 from adhoc.core.errors import ConfigurationError, EpisodesFailed, ModelError, RecordError
 from adhoc.evaluation.contender import Contender
 from adhoc.experiments.comparison import Comparison, Entrant
-from adhoc.experiments.failures import Tolerance
+from adhoc.experiments.failures import Failure, FailureFile, Tolerance
 from adhoc.experiments.folder import RunFolder
+from adhoc.experiments.progress import Silent
 from adhoc.experiments.run import run_comparison
 
 
@@ -34,11 +35,14 @@ def broken():
     Faulty.broken = True
 
 
-def run(folder, *newcomers, most=None, **changes):
+def comparison(*newcomers, **changes):
     entrants = tuple(Entrant(it, 5) for it in newcomers)
-    comparison = Comparison(GridWorld(), SCENARIOS, conditions(**changes), entrants)
+    return Comparison(GridWorld(), SCENARIOS, conditions(**changes), entrants)
+
+
+def run(folder, *newcomers, most=None, **changes):
     store = RunFolder(folder, Tolerance(most))
-    return run_comparison(comparison, store), store
+    return run_comparison(comparison(*newcomers, **changes), store), store
 
 
 def test_the_other_episodes_are_run(tmp_path):
@@ -61,6 +65,34 @@ def test_a_failed_episode_is_run_again_and_forgotten_when_it_succeeds(tmp_path):
     summary, store = run(tmp_path, FAULTY)
     assert (summary.run, summary.recorded, store.failures) == (2, 2, ())
     assert not (tmp_path / "failures.jsonl").exists()
+
+
+def test_who_goes_away_while_being_told_leaves_no_failure(tmp_path):
+    class Gone(Silent):
+        def finished(self, record):
+            raise SystemExit(1)
+
+    with pytest.raises(SystemExit):
+        run_comparison(comparison(HELPER), RunFolder(tmp_path), Gone())
+    assert len(RunFolder(tmp_path).records) == 1
+    assert RunFolder(tmp_path).failures == ()
+
+
+def test_a_failure_of_an_episode_that_is_recorded_does_not_count(tmp_path):
+    run(tmp_path, HELPER)
+    record = RunFolder(tmp_path).records[0]
+    FailureFile(tmp_path).add(
+        Failure(
+            record["episode_id"], "task", "walkers", "none", None, "Killed", "between two writes", "", "0"
+        )
+    )
+    assert RunFolder(tmp_path).failures == ()
+
+
+def test_what_a_policy_says_in_an_error_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(Faulty, "error", RuntimeError("my sensor\nbroke\x1b[31m"))
+    _, store = run(tmp_path, FAULTY)
+    assert store.failures[0].message == "my sensor broke [31m"
 
 
 def test_one_that_fails_again_is_there_once(tmp_path):

@@ -119,8 +119,16 @@ class TestFile:
         after = json.loads(provenance_path(tmp_path, run).read_text())
         assert [it["options"]["workers"] for it in after["sessions"]] == [1, 2]
         assert [it["ended"] is None for it in after["sessions"]] == [True, False]
-        assert {**after, "sessions": before["sessions"]} == before
+        assert {**after, "sessions": before["sessions"], "sha256": before["sha256"]} == before
         assert [it.name for it in provenance_files(tmp_path)] == [f"{run}.json"]
+
+    def test_the_name_of_the_host_may_be_taken_out(self, tmp_path):
+        run = begin_session(tmp_path, CONFIG, PRINTS)
+        path = provenance_path(tmp_path, run)
+        facts = json.loads(path.read_text())
+        del facts["sessions"][0]["machine"]["host"]
+        path.write_text(json.dumps(facts))
+        assert read_provenance(tmp_path, run).run == run
 
     def test_an_interrupted_session_has_an_end(self, tmp_path):
         with pytest.raises(KeyboardInterrupt), run_session(tmp_path, CONFIG) as run:
@@ -135,6 +143,7 @@ class TestFile:
             (lambda text: text.replace("adhoc provenance", "something"), "another file"),
             (lambda text: text.replace('"version": 1', '"version": 2'), "version: is 2"),
             (lambda text: text.replace('"sessions": [', '"session": ['), "sessions: should be a list"),
+            (lambda text: text.replace('"workers": 1', '"workers": 3'), "sha256: is not that of what"),
         ],
     )
     def test_damage_is_told_and_never_written_over(self, tmp_path, damage, told):

@@ -22,8 +22,11 @@ def cluster():
     from ray.cluster_utils import Cluster
 
     made = Cluster(initialize_head=True, head_node_args={"num_cpus": 1, "include_dashboard": False})
-    made.add_node(num_cpus=1)
+    # Before there is another node: this process ends with the node that it is connected to, which on one
+    # machine may be any that is there.
     ray.init(address=made.address, logging_level="ERROR", log_to_driver=False)
+    made.add_node(num_cpus=1)
+    made.wait_for_nodes()
     yield made
     ray.shutdown()
     made.shutdown()
@@ -71,6 +74,12 @@ def test_more_workers_than_the_cluster_has_room_for_are_no_trouble(tmp_path, clu
 def test_an_error_on_a_node_ends_the_run(tmp_path, cluster):
     with pytest.raises(EpisodesFailed, match="ZeroDivisionError: a fault in a policy"):
         run(tmp_path, Compare("faulty", 2), Progress())
+
+
+def test_without_an_address_it_begins_a_cluster_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.setenv("RAY_ADDRESS", "127.0.0.1:1")
+    assert run(tmp_path, Compare("fetcher", 1), Progress(), workers=1).run == 2
+    assert not ray.is_initialized()
 
 
 def test_there_must_be_a_cluster_at_the_address():

@@ -217,14 +217,15 @@ def test_a_worker_may_be_killed_in_the_middle_of_a_message(tmp_path):
     assert summary.run == 2
 
 
-def test_an_episode_that_kills_its_worker_again_and_again_has_failed(tmp_path):
-    compare = Compare("dying", 1, str(tmp_path), deaths=100)
+@pytest.mark.parametrize(("newcomer", "how"), [("dying", "signal SIGKILL"), ("leaving", "exit code 9")])
+def test_an_episode_that_kills_its_worker_again_and_again_has_failed(tmp_path, newcomer, how):
+    compare = Compare(newcomer, 1, str(tmp_path), deaths=100)
     summary, _ = run(tmp_path / "run", compare, tolerance=Tolerance(None))
     assert len(list(tmp_path.glob("death-*"))) == DEATHS
     assert (summary.run, summary.failed) == (1, 1)
     (failure,) = RunFolder(tmp_path / "run").failures
-    assert failure.episode_id == "two_rooms-s0--walkers--dying--t3"
-    assert f"{DEATHS} worker processes died in it (last: signal SIGKILL)" in failure.message
+    assert failure.episode_id == f"two_rooms-s0--walkers--{newcomer}--t3"
+    assert f"{DEATHS} worker processes died in it (last: {how})" in failure.message
 
 
 def test_a_call_in_flight_is_answered_although_its_worker_was_killed(tmp_path):

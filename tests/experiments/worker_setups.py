@@ -64,6 +64,13 @@ class Dying(Script):
         os.kill(os.getpid(), signal.SIGKILL)
 
 
+class Leaving(Dying):
+    """Ends its process itself, as a library that crashes may."""
+
+    def die(self):
+        os._exit(9)
+
+
 class Stammering(Dying):
     """Is killed while it says something long to the parent."""
 
@@ -107,6 +114,8 @@ class Compare:
                 return Curious(model)
             if self.newcomer == "dying":
                 return Dying(self.folder, self.deaths)
+            if self.newcomer == "leaving":
+                return Leaving(self.folder, self.deaths)
             if self.newcomer == "stammering":
                 return Stammering(self.folder, self.deaths, model)
             if self.newcomer == "faulty":

@@ -137,6 +137,12 @@ class TestFieldOfView:
         assert points[0] == pytest.approx((2.0, 2.0), abs=0.04)
         assert points[-1] == pytest.approx((4.0, -4.0), abs=0.15)
 
+    def test_what_is_seen_above_a_wall_does_not_count(self):
+        depth = np.full((64, 64), 2.0, np.float32)
+        depth[:20] = np.inf
+        points = view_outline(observation(Pose(0.0, 0.0), depth), 4.0) * unit_of(4.0)
+        assert points[:, 0] == pytest.approx(np.full(RAYS, 2.0), abs=0.04)
+
     def test_it_turns_with_the_robot(self):
         depth = np.full((64, 64), 2.0, np.float32)
         ahead, left = (view_outline(observation(Pose(0.0, 0.0, yaw), depth), 4.0) for yaw in (0.0, np.pi / 2))

@@ -50,6 +50,13 @@ def test_the_terminal_shows_the_first_cell_once():
     assert lines[-2:] == ["below: an interval", "100% sure"]
 
 
+def test_names_are_no_markdown():
+    name = "a|b <i> [c](d) &amp; $x^2$ _e_ *f* `g`"
+    text = markdown_table(plain_table("k", "title", ["name"], 1, [[[name]]]))
+    assert r"a\|b \<i> \[c](d) \&amp; \$x^2$ \_e\_ \*f* \`g\`" in text
+    assert "| [20.0, 56.7] |" in markdown_table(plain_table("k", "t", ["x"], 1, [[["[20.0, 56.7]"]]]))
+
+
 def test_markdown_rows_can_be_searched_for():
     assert markdown_table(TABLE).splitlines() == [
         "## Joins at step 0",

@@ -141,6 +141,12 @@ def test_what_is_not_the_models_doing_is_told_for_each_row():
     ]
 
 
+def test_newcomers_without_the_team_alone_are_counted_and_nothing_else():
+    report = make_report(Results.of([it for it in RECORDS if it["join_step"] is not None]))
+    assert report.blocks == ()
+    assert any(it.startswith("4 episodes left out") for it in report.notes)
+
+
 def test_the_order_in_which_episodes_ended_does_not_matter():
     talked = [
         failed(task, label, step, "tiny", **talk(100, 4, 100, 4))

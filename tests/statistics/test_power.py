@@ -27,6 +27,8 @@ def test_connors_formula_by_hand():
     assert episodes_needed(0.2, 0.3) == 62
     assert episodes_needed(-0.2, 0.3) == 62
     assert episodes_needed(0.2, 0.3, design_effect=2.0) == 123
+    with pytest.raises(ConfigurationError, match=r"design_effect=-1\.0: must be above 0"):
+        episodes_needed(0.2, 0.3, design_effect=-1.0)
     assert episodes_needed(0.0, 0.3) == math.inf
 
 

@@ -16,6 +16,8 @@ from adhoc.evaluation.records import writing
 FOLDER_NAME = "provenance"
 FORMAT, VERSION = "adhoc provenance", 1
 HASH_LENGTH = 16
+CHECKSUM = "sha256"
+"""The field with the hash of all others, but for the names of hosts, which one may want to take out."""
 NOT_DECIDING = (
     "out",
     "workers",
@@ -86,6 +88,8 @@ def read_provenance(folder: str | Path, run: str) -> Provenance:
         raise RecordError(
             f"{path}: run: what it says has the hash {found.run}; by its name it is {run}: it was edited"
         )
+    if value.get(CHECKSUM) != _checksum(value):
+        raise RecordError(f"{path}: {CHECKSUM}: is not that of what it says: it was edited, or is damaged")
     return found
 
 
@@ -155,9 +159,20 @@ def _write(path: Path, facts: Provenance) -> None:
         **{part: getattr(facts, part) for part in _PARTS},
         "sessions": list(facts.sessions),
     }
+    content[CHECKSUM] = _checksum(content)
     text = json.dumps(content, indent=1, allow_nan=False) + "\n"
     with writing(path):
         write_whole(path, text.encode())
+
+
+def _checksum(content: Mapping[str, Any]) -> str:
+    told = {name: value for name, value in content.items() if name != CHECKSUM}
+    told["sessions"] = [
+        {**session, "machine": _without(session.get("machine") or {}, ("host",))}
+        for session in told["sessions"]
+    ]
+    text = json.dumps(told, sort_keys=True)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def _checked(value: Any, path: Path) -> Provenance:

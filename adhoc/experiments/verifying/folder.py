@@ -62,7 +62,7 @@ def verify_folder(folder: str | Path, make_plan: MakePlan) -> Verified:
         findings += map(it.finding, troubles)
     if not records and not findings:
         raise RecordError(f"{root / FILE_NAME}: no episode records; is it the out=... of a run?")
-    failures, told = _failures(root)
+    failures, told = _failures(root, {it.record["episode_id"] for it in records})
     findings += [
         *told,
         *pairing_findings(records),
@@ -75,11 +75,11 @@ def verify_folder(folder: str | Path, make_plan: MakePlan) -> Verified:
     return Verified(tuple(records), tuple(findings))
 
 
-def _failures(folder: Path) -> tuple[tuple[Failure, ...], list[Finding]]:
+def _failures(folder: Path, recorded: set[str]) -> tuple[list[Failure], list[Finding]]:
     try:
-        failures = FailureFile(folder).failures
+        failures = [it for it in FailureFile(folder).failures if it.episode_id not in recorded]
     except RecordError as error:
-        return (), [Finding(FAILURES_NAME, None, "", _without_place(error))]
+        return [], [Finding(FAILURES_NAME, None, "", _without_place(error))]
     return failures, [
         Finding(FAILURES_NAME, line, "", f"episode {it.episode_id} failed: {it.error}: {it.message}")
         for line, it in enumerate(failures, start=1)

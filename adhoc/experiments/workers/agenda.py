@@ -57,6 +57,10 @@ class Agenda:
         self._episodes[worker] = episode
         del self._deaths[BEFORE_THE_FIRST_EPISODE]
 
+    def has_begun(self, worker: int) -> bool:
+        """Whether the worker is in an episode."""
+        return worker in self._episodes
+
     def episode(self, worker: int) -> str:
         """The episode that the worker began last, for error texts."""
         return self._episodes.get(worker, BEFORE_THE_FIRST_EPISODE)

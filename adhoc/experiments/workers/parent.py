@@ -154,13 +154,12 @@ class _Parent:
         killed, death = worker.is_killed(), worker.death
         worker.stop()
         del self._crew[worker.number]
-        if killed:
+        if killed or self._agenda.has_begun(worker.number):
             self._agenda.lose(worker.number, death)
             self._fill_crew()
         elif not self._agenda.is_dismissed(worker.number):
             raise WorkerError(
-                f"episode {self._agenda.episode(worker.number)!r}: its worker process ended with {death}; "
-                "what it wrote before is above"
+                f"a worker process ended with {death} before its first episode; what it wrote is above"
             )
 
     def _answer(self, worker: int, question: object) -> Any:

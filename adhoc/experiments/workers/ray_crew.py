@@ -81,7 +81,8 @@ class RayCrew:
         self._listener = Listener((ray.util.get_node_ip_address(), 0), authkey=self._secret)
         self._hired: dict[int, RayWorker] = {}
         self._closed = False
-        threading.Thread(target=self._take_calls, name="calls-of-workers", daemon=True).start()
+        self._answering = threading.Thread(target=self._take_calls, name="calls-of-workers", daemon=True)
+        self._answering.start()
 
     def hire(self, number: int) -> RayWorker:
         """Start the worker of that number as soon as the cluster has room for it."""
@@ -92,9 +93,14 @@ class RayCrew:
         return self._hired[number]
 
     def close(self) -> None:
-        """Take no more calls."""
+        """Take no more calls, and let go of what belongs to the cluster."""
         self._closed = True
+        with suppress(OSError):
+            # Closing the listener does not wake who waits at it; somebody who calls and says nothing does.
+            socket.create_connection(self._listener.address, _ANSWER_S).close()
+        self._answering.join(_ANSWER_S)
         self._listener.close()
+        self._hired.clear()
 
     def _take_calls(self) -> None:
         while not self._closed:
@@ -128,7 +134,8 @@ def ray_crew(make: MakeComparisons, address: str | None = None, cpus: float = 1.
     if is_ours:
         _check_address(address)
         try:
-            ray.init(address=address, include_dashboard=False, logging_level=logging.WARNING)
+            # Of None it would make any cluster that somebody else has begun on this machine.
+            ray.init(address=address or "local", include_dashboard=False, logging_level=logging.WARNING)
         except (ConnectionError, RuntimeError, ValueError) as error:
             raise ConfigurationError(f"executor.address={address}: {error}") from error
     crew = RayCrew(ray, make, cpus)

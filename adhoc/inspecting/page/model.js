@@ -13,28 +13,10 @@ class Page {
     this.house = data.house;
     this.targets = data.targets;
     this.episodes = data.episodes.map((episode, place) => new Episode(episode, this, place));
-    this.tellApart();
     this.furniture = new Map(data.house.furniture.map((thing) => [thing.id, thing]));
     const corners = data.house.rooms.flatMap((room) => room.polygon);
     const [xs, ys] = [corners.map((it) => it[0]), corners.map((it) => it[1])];
     this.box = { x: Math.min(...xs), y: Math.min(...ys), right: Math.max(...xs), top: Math.max(...ys) };
-  }
-
-  // Gives every episode a title of its own: what it lacks of joining step, model, team or place is added.
-  tellApart() {
-    const additions = [
-      ({ record }) => (record.join_step === null ? "" : ` t${record.join_step}`),
-      ({ record }) => ` ${record.model || record.policy}`,
-      ({ record }) => ` beside ${record.team_label}`,
-      ({ place }) => ` #${place + 1}`,
-    ];
-    for (const addition of additions) {
-      const groups = new Map();
-      for (const one of this.episodes) groups.set(one.title, [...(groups.get(one.title) || []), one]);
-      for (const group of groups.values()) {
-        if (new Set(group.map(addition)).size > 1) for (const one of group) one.title += addition(one);
-      }
-    }
   }
 
   block(place) {
@@ -51,7 +33,7 @@ class Episode {
     this.page = page;
     this.place = place;
     this.steps = data.record.steps;
-    this.title = data.record.join_step === null ? "Team alone" : `With ${data.record.policy_label}`;
+    this.title = page.data.titles[place];
     this.robots = data.robots.map((robot, index) => new Robot(robot, this, index));
     this.points = Uint8Array.from(atob(data.views.points), (letter) => letter.charCodeAt(0));
     this.decisionList = data.decisions.map(([step, robot, picture, trace], index) => ({ step, robot, picture, trace: asObject(trace), index }));

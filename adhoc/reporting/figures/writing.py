@@ -9,6 +9,8 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from adhoc.core.whole_file import write_whole
+from adhoc.evaluation.records import writing
 from adhoc.reporting.figures.by_group import success_by_group
 from adhoc.reporting.figures.by_step import success_by_step
 from adhoc.reporting.figures.drawing import draw_by_group, draw_by_step
@@ -25,8 +27,10 @@ def write_figures(report: Report, results: Results, folder: Path) -> list[Pictur
         report: Made from the results, with intervals.
         results: For what parts scenarios.
         folder: Is made if it is missing.
+
+    Raises:
+        RecordError: A file cannot be written; it is then as it was.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     with paper_style():
         return [_written(name, title, figure, folder) for name, title, figure in _figures(report, results)]
 
@@ -48,6 +52,10 @@ def _written(name: str, title: str, figure: Figure, folder: Path) -> Picture:
     figure.savefig(buffer, format="svg", metadata={"Date": None})
     # What stands where is found out once; finding it again takes as long as drawing.
     figure.set_layout_engine("none")
-    path.with_suffix(".svg").write_bytes(buffer.getvalue())
-    figure.savefig(path.with_suffix(".png"), dpi=DOTS_PER_INCH)
+    pixels = BytesIO()
+    figure.savefig(pixels, format="png", dpi=DOTS_PER_INCH)
+    for ending, content in ((".svg", buffer), (".png", pixels)):
+        file = path.with_suffix(ending)
+        with writing(file):
+            write_whole(file, content.getvalue())
     return Picture(title, str(path), buffer.getvalue().decode())

@@ -7,7 +7,7 @@ from html import escape
 
 from adhoc.reporting.table import Cell, Document, Row, Table
 
-_STARTS_MARK = re.compile(r"[\\|<`]|[*](?=[^\s])|(?<!\w)_|_(?!\w)")
+_STARTS_MARK = re.compile(r"[\\|<`]|[*](?=[^\s])|(?<!\w)_|_(?!\w)|\[(?=[^\]]*\]\()|&(?=#?\w+;)|\$(?=[^$]*\$)")
 
 
 def markdown_document(document: Document) -> str:
