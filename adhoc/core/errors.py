@@ -47,7 +47,7 @@ class CheckpointError(AdhocError):
 
 class EpisodeError(AdhocError):
     """An episode broke one of its own rules: its past differs from that of the team alone, or a policy
-    asked a question outside its turn or said something that is no message."""
+    asked a question outside its turn, said something that is no message or did something that is no turn."""
 
 
 class EpisodesFailed(AdhocError):

@@ -7,7 +7,7 @@ from functools import partial
 from itertools import groupby
 
 from adhoc.agents.policy import Policy, Turn
-from adhoc.core.errors import BudgetReached, ConfigurationError
+from adhoc.core.errors import BudgetReached, ConfigurationError, EpisodeError
 from adhoc.core.values import Action, Observation, Pose
 from adhoc.evaluation.channel import Channel
 from adhoc.evaluation.episode_result import Ending, EpisodeResult
@@ -244,7 +244,10 @@ class _Episode:
         return ((name, self._take(name, turn)) for name, turn in zip(names, turns))
 
     def _turn(self, name: str) -> Turn:
-        return self._policies[name].act(self._observations[name], self._channel.inbox(name))
+        turn = self._policies[name].act(self._observations[name], self._channel.inbox(name))
+        if not isinstance(turn, Turn) or not isinstance(turn.action, Action):
+            raise EpisodeError(f"{name}: act() must return a Turn with an Action, not {repr(turn)[:80]}")
+        return turn
 
     def _take(self, name: str, turn: Turn) -> Action:
         self._channel.send(name, turn.outbox)

@@ -5,6 +5,7 @@ from functools import partial
 import pytest
 from grid_world import Errand, GridWorld, Script, fetch, scenario
 
+from adhoc.agents.policy import Turn
 from adhoc.core.errors import ConfigurationError, EpisodeError
 from adhoc.core.messages import Message, MessageKind
 from adhoc.core.values import Action, ActionName, Capability, Pose
@@ -19,6 +20,16 @@ STOP = Action(ActionName.STOP)
 
 def run(team, newcomer=None, world=None, where=None, **options):
     return run_episode(world or GridWorld(), where or scenario(), Errand(), team, newcomer, **options)
+
+
+@pytest.mark.parametrize("turn", [None, "left", Turn("left"), TURN])
+def test_what_is_no_turn_is_told(turn):
+    class Careless(Script):
+        def act(self, observation, inbox):
+            return turn
+
+    with pytest.raises(EpisodeError, match=r"teammate_1: act\(\) must return a Turn with an Action, not "):
+        run([Careless(), Script()])
 
 
 class TestEnding:

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 from grid_world import scenario
 
@@ -61,7 +63,8 @@ def test_other_sequences_have_ids_too():
     assert scenario_ids([scenario(id="a"), scenario(id="b")]) == ["a", "b"]
 
 
-def test_a_run_loads_one_scenario_at_a_time(loader, tmp_path):
+def test_a_run_loads_one_scenario_at_a_time(loader, tmp_path, monkeypatch):
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "experiments"))
     from test_run import run
 
     _, progress = run(tmp_path, scenarios=LazyScenarios(IDS[:2], loader, kept=1))
