@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import argparse
 import errno
+import os
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from importlib import import_module
 from typing import TextIO
 
@@ -47,13 +49,16 @@ RESUMABLE = ("run", "train", "sensitivity")
 """Commands that go on where they stopped."""
 USAGE_ERROR = 2
 OUT_OF_BUDGET = 3
+READER_GONE = 141
+"""As of a process that SIGPIPE ended."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run `adhoc` with these arguments (of the process by default); returns the exit code.
 
     0 is success, 1 a run of which some episodes failed, 2 an error of the user's input (one line on stderr),
-    3 a run that stopped at a cap of its budget (the same), 130 an interruption.
+    3 a run that stopped at a cap of its budget (the same), 130 an interruption, 141 that whoever read the
+    output went away, as `head` does.
     """
     given = sys.argv[1:] if arguments is None else list(arguments)
     if given[:1] and given[0] in FLAGS:
@@ -73,6 +78,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         except AdhocError as error:
             sys.stderr.write(f"adhoc {command}: error: {error}\n")
             return USAGE_ERROR
+        except BrokenPipeError:
+            _close_output()
+            return READER_GONE
         except OSError as error:
             if error.filename is None and error.errno not in FULL:
                 raise
@@ -87,6 +95,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             )
             sys.stderr.write(f"adhoc {command}: interrupted; {hint}\n")
             return 130
+
+
+def _close_output() -> None:
+    """What is still to be written goes nowhere, so that nothing complains of it at the end."""
+    with suppress(OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _parse(arguments: Sequence[str]) -> tuple[str, list[str]]:

@@ -67,6 +67,21 @@ class TestMain:
             told = f"adhoc report: error: a file could not be written: {os.strerror(number)}\n"
             assert capsys.readouterr().err == told
 
+    def test_a_reader_that_goes_away_is_no_trouble(self):
+        program = (
+            "import sys\n"
+            "from adhoc.cli import ledger\n"
+            "from adhoc.cli.main import main\n"
+            "ledger.main = lambda arguments: [sys.stdout.write('x' * 99) for _ in range(9999)]\n"
+            "sys.exit(main(['ledger']))"
+        )
+        with subprocess.Popen(
+            [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        ) as asked:
+            asked.stdout.close()
+            assert asked.stderr.read() == b""
+            assert asked.wait(60) == 141
+
     def test_help_imports_nothing_heavy(self):
         program = (
             "import sys\n"
