@@ -16,6 +16,8 @@ from adhoc.tasks.task import Task
 
 NO_AD_HOC = "none"
 """The policy name of the team alone."""
+ALONE = "No ad hoc"
+"""What the paper calls the team alone."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from typing import Any
 
 from adhoc import __version__
 from adhoc.evaluation.common_sense import judgement_counts
-from adhoc.evaluation.contender import Contender
+from adhoc.evaluation.contender import ALONE, Contender
 from adhoc.evaluation.episode_key import EpisodeKey
 from adhoc.evaluation.episode_result import EpisodeResult
 from adhoc.evaluation.first_help import first_help
@@ -100,7 +100,7 @@ def _first_help(result: EpisodeResult) -> int | None:
 
 def newcomer_label(newcomer: Contender | None) -> str:
     """The `policy_label` of an episode with that newcomer, or of the team alone."""
-    return "No ad hoc" if newcomer is None else newcomer.label
+    return ALONE if newcomer is None else newcomer.label
 
 
 def pack_history(links: Sequence[str]) -> str:

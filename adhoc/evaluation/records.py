@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from adhoc.core.errors import RecordError
+from adhoc.core.whole_file import write_whole
 from adhoc.evaluation.record_lines import AT_ONCE, quick_records, without_collecting
 
 FILE_NAME = "episodes.jsonl"
@@ -135,13 +136,8 @@ class RecordFile:
         if not records:
             self.path.unlink(missing_ok=True)
             return
-        fresh = self.path.with_suffix(".new")
         with writing(self.path):
-            with open(fresh, "wb") as file:
-                file.write(lines)
-                file.flush()
-                os.fsync(file.fileno())
-            fresh.replace(self.path)
+            write_whole(self.path, lines)
 
     def _check_unique(self, records: list[Record]) -> None:
         first_line: dict[str, int] = {}

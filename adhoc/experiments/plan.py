@@ -10,6 +10,7 @@ from adhoc.core.errors import ConfigurationError
 from adhoc.core.streams import stream
 from adhoc.evaluation.episode_key import EpisodeKey, EpisodeKind
 from adhoc.evaluation.lazy_scenarios import scenario_ids
+from adhoc.evaluation.recording import newcomer_label
 from adhoc.evaluation.records import Record
 from adhoc.evaluation.settings_files import differing
 from adhoc.experiments.comparison import Comparison
@@ -155,7 +156,7 @@ class _Count:
         self._spent: defaultdict[str, float] = defaultdict(float)
 
     def add(self, kind: EpisodeKind, record: Record | None) -> None:
-        label = "No ad hoc" if kind.newcomer is None else kind.newcomer.label
+        label = newcomer_label(kind.newcomer)
         if record is not None:
             self.recorded[label] += 1
             self._spent[label] += float(record["llm"].get("cost_usd", 0.0))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from adhoc.core.counting import counted
-from adhoc.reporting.comparisons import ALONE, BEYOND_CHANCE, Comparison, Family
+from adhoc.evaluation.contender import ALONE
+from adhoc.reporting.comparisons import BEYOND_CHANCE, Comparison, Family
 from adhoc.reporting.few_houses import few_houses
 from adhoc.reporting.ordering import told
 from adhoc.reporting.table import Table, plain_table

@@ -9,6 +9,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from adhoc.evaluation.contender import ALONE
 from adhoc.reporting.results import Results
 from adhoc.reporting.scoreboards import Scoreboard, scoreboards
 from adhoc.statistics.intervals import FloatArray, Interval, Sample, clustered_intervals
@@ -16,8 +17,6 @@ from adhoc.statistics.many import holm
 from adhoc.statistics.paired_tests import PairedTest, paired_test
 from adhoc.statistics.power import Pilot, pilot
 
-ALONE = "No ad hoc"
-"""What the team alone is called, as in the other tables."""
 BEYOND_CHANCE = 0.05
 """Adjusted p-values up to this are marked."""
 

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Sequence
 
 from adhoc.core.errors import ConfigurationError
-from adhoc.reporting.comparisons import ALONE, Comparison, Family
+from adhoc.evaluation.contender import ALONE
+from adhoc.reporting.comparisons import Comparison, Family
 from adhoc.reporting.table import Table, plain_table
 from adhoc.statistics.power import LEVEL, POWER, detectable_difference, episodes_needed
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from adhoc.evaluation.contender import ALONE
 from adhoc.evaluation.records import Record
 from adhoc.reporting.contestants import Contestant, Team
 from adhoc.reporting.pairing import Pair
@@ -13,9 +14,6 @@ from adhoc.reporting.paper_order import policy_order, team_order
 from adhoc.reporting.remarks import remarks
 from adhoc.reporting.results import Results
 from adhoc.reporting.rows import ResultRow, averages, gain_of, unaided_successes, uncertainties
-
-ALONE = "No ad hoc"
-"""What the paper calls the team alone."""
 
 
 @dataclass(frozen=True)

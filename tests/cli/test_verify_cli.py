@@ -287,20 +287,21 @@ def test_edited_settings_are_found(results, verify):
     assert any(f"settings/{path.name}: there is no such file" in it for it in verify(results)[1])
 
 
-def test_edited_provenance_is_found(results, verify):
+@pytest.mark.parametrize(
+    ("there", "edited", "told"),
+    [
+        ('"max_steps": 20', '"max_steps": 21', "run: what it says has the hash"),
+        ('"limit": null', '"limit": 1', "sha256: is not that of what it says"),
+    ],
+)
+def test_edited_provenance_is_found(results, verify, there, edited, told):
     path = provenance_files(results)[0]
-    path.write_text(path.read_text().replace('"max_steps": 20', '"max_steps": 21'))
+    text = path.read_text()
+    assert there in text
+    path.write_text(text.replace(there, edited))
     code, lines = verify(results)
     assert code == 1
-    assert any(f"provenance/{path.name}: run: what it says has the hash" in it for it in lines)
-
-
-def test_fewer_episodes_cannot_be_wanted_afterwards(results, verify):
-    path = provenance_files(results)[0]
-    path.write_text(path.read_text().replace('"limit": null', '"limit": 1'))
-    code, lines = verify(results)
-    assert code == 1
-    assert any(f"provenance/{path.name}: sha256: is not that of what it says" in it for it in lines)
+    assert any(f"provenance/{path.name}: {told}" in it for it in lines)
 
 
 def test_records_without_provenance_are_named_in_one_line(results, verify):

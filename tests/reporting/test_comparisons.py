@@ -8,8 +8,9 @@ import pytest
 from test_ordering import alone, joined, record
 
 from adhoc.core.errors import ConfigurationError
+from adhoc.evaluation.contender import ALONE
 from adhoc.reporting.comparison_table import comparison_tables, p_text
-from adhoc.reporting.comparisons import ALONE, Scope, families
+from adhoc.reporting.comparisons import Scope, families
 from adhoc.reporting.power_table import power_tables
 from adhoc.reporting.rendering.markdown import markdown_table
 from adhoc.reporting.results import Results

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import math
-import os
 import reprlib
 import stat
 from collections.abc import Mapping
@@ -17,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from adhoc.core.errors import CheckpointError
+from adhoc.core.whole_file import write_whole
 
 SUFFIX = ".safetensors"
 """Of the names of checkpoints."""
@@ -67,9 +67,7 @@ def save_checkpoint(path: str | Path, kind: str, tensors: Tensors, card: Mapping
     path = Path(path)
     written = save(plain, {METADATA: content})
     _check_size(path, len(written), {name: value.shape for name, value in plain.items()})
-    fresh = path.with_name(path.name + ".part")
-    fresh.write_bytes(written)
-    os.replace(fresh, path)
+    write_whole(path, written)
 
 
 def load_checkpoint(path: str | Path, kind: str, expected_shapes: Shapes) -> Checkpoint:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from rich import box
-from rich.console import Console, ConsoleOptions, RenderableType
+from rich.console import Console, ConsoleOptions, JustifyMethod, RenderableType
 from rich.table import Table as RichTable
 from rich.text import Text
 
@@ -56,8 +56,8 @@ def _panel(table: Table, panel: Panel, gap: int) -> RichTable:
     )
     for number, width in zip(panel.columns, panel.widths):
         column = table.columns[number]
-        justify = "left" if column.is_name else "right"
-        shown.add_column(Text(column.heading), justify=justify, width=width, overflow="fold")  # type: ignore[arg-type]
+        justify: JustifyMethod = "left" if column.is_name else "right"
+        shown.add_column(Text(column.heading), justify=justify, width=width, overflow="fold")
     for group in table.groups:
         shown.add_section()
         for row in shown_once(group):
