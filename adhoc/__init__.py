@@ -112,7 +112,7 @@ _HOMES = {
     "adhoc.experiments.run": ("run_comparison",),
     "adhoc.cli.contestants": ("Components",),
     "adhoc.cli.hydra_groups": ("register_groups",),
-    "adhoc.cli.run_config": ("run_config",),
+    "adhoc.cli.hydra_application": ("run_config",),
 }
 _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 

@@ -22,7 +22,8 @@ def register_groups() -> None:
         defaults: [adhoc_run, _self_]
 
     has all keys of `adhoc run`, and may have others; `policy=irot team=llm` on your command line chooses
-    among ours. `cli.contestants.Components` builds what it describes, `cli.run_config.run_config` runs it.
+    among ours. `cli.contestants.Components` builds what it describes, `cli.hydra_application.run_config` runs
+    it.
     Of one name, a file in your own configuration folder goes before ours.
     """
     store, root = ConfigStore.instance(), data_dir("configs")
